@@ -1,5 +1,6 @@
 #include "channels.hpp"
 
+#include <algorithm>
 #include <regex>
 
 namespace overturn {
@@ -41,17 +42,28 @@ void expect_corrected_accelerogram(const Lines& lines)
     }
 }
 
-std::string channel_name(Lines header, std::size_t end)
+ChannelName channel_name(Lines header, std::size_t end)
 {
+    static const std::regex channel(R"(^[ \t]*(?:sta +)?chan?[:.]?[ \t]*[^ :(]*[ \t]*:(.*)$)",
+                                    std::regex::icase);
+    constexpr std::string_view location = "location:";
     while (header.number() + 1 < end && header.next()) {
-        const std::string_view line = trimmed(header.line());
-        if (lower(line).starts_with("chan") || lower(line).starts_with("sta cha")) {
-            const std::string_view text = line.substr(0, line.find('('));
-            const std::size_t colon = text.rfind(':');
-            return std::string(colon == text.npos ? "" : trimmed(text.substr(colon + 1)));
+        const std::string line(header.line());
+        std::smatch found;
+        if (!std::regex_match(line, found, channel)) {
+            continue;
         }
+        const std::string text(trimmed(found.str(1)));
+        const std::size_t place = place_after(text, location);
+        const std::size_t before_place = place == text.npos ? place : place - location.size();
+        const std::size_t last =
+            std::min({text.find('('), text.find("  "), text.find('\t'), before_place, text.size()});
+        std::string_view rest = place == text.npos ? std::string_view(text).substr(last)
+                                                   : std::string_view(text).substr(place);
+        rest = rest.starts_with('(') ? "" : rest;
+        return {std::string(trimmed(text.substr(0, last))), std::string(trimmed(rest))};
     }
-    return "";
+    return {};
 }
 
 namespace {

@@ -178,7 +178,7 @@ std::optional<RecordComponent> take_channel(Lines& lines)
 {
     const Lines before = lines;
     const HeaderValues integers = take_header_values(lines, "Integer-header");
-    std::string name = channel_name(before, integers.lines.number());
+    ChannelName name = channel_name(before, integers.lines.number());
     const HeaderValues reals = take_header_values(lines, "Real-header");
     const std::string code = take_comments(lines);
     if (!next_text(lines)) {
@@ -195,7 +195,7 @@ std::optional<RecordComponent> take_channel(Lines& lines)
     if (!is_acceleration) {
         return std::nullopt;
     }
-    const bool is_named = !name.empty() && name != "?" && lower(name) != "other";
+    const bool is_named = !is_one_of(lower(name.direction), {"", "?", "other"});
     const auto [time_step, rounding] = time_step_of(reals);
     const auto unit = unit_of(announcing, integers[3]);
     std::vector<std::string> remarks = compare(
@@ -205,7 +205,8 @@ std::optional<RecordComponent> take_channel(Lines& lines)
                                                                        .time_step = time_step,
                                                                        .rounding = rounding,
                                                                        .may_have_offset = !unit});
-    return RecordComponent{.name = is_named || code.empty() ? std::move(name) : code,
+    return RecordComponent{.name = is_named || code.empty() ? std::move(name.direction) : code,
+                           .place = std::move(name.place),
                            .acceleration =
                                unit ? std::move(samples) : over_g(reals, std::move(samples)),
                            .unit = unit.value_or(AccelerationUnit::g),

@@ -4,6 +4,7 @@
 #include "stated_numbers.hpp"
 #include "stated_unit.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace overturn {
@@ -94,7 +95,9 @@ RecordComponent take_channel(Lines& lines)
     }
     const Lines announcing = lines;
     const std::string_view step = step_of(announcing);
-    RecordComponent component{.name = channel_name(before, announcing.number()),
+    ChannelName name = channel_name(before, announcing.number());
+    RecordComponent component{.name = std::move(name.direction),
+                              .place = std::move(name.place),
                               .acceleration = take_announced(lines, "acceleration", usual_columns),
                               .unit = unit_of(announcing),
                               .time_step = time_step_of(announcing, step),

@@ -55,6 +55,29 @@ TEST(Csmip, HasAComponentForEachChannel)
     }
 }
 
+// clang-format off
+TEST(Csmip, NamesAChannelByItsDirectionAndNotByItsPlace)
+{
+    struct Line { const char* text; const char* direction; const char* place; };
+    for (const auto& [text, direction, place] : std::vector<Line>{
+             {"Chan  1:  90 Deg", "90 Deg", ""}, {"Chan  1: 360 Deg      Location: Roof: SW", "360 Deg", "Roof: SW"},
+             {"Chan  2: Up   Ground", "Up", "Ground"}, {"CHAN  1:  90 DEG", "90 DEG", ""},
+             {"Chan 12:  H1  ", "H1", ""}, {"Chan  3: 360 Deg Location: Ground Floor", "360 Deg", "Ground Floor"},
+             {"Sta Chan  1: 340 deg (Rcrdr Chan  1) Location: roof", "340 deg", "roof"},
+             {"Sta Cha:  1: 340 deg (Rcrdr Chan  1) Location: a: b", "340 deg", "a: b"},
+             {"Sta Chan   ?:Other   (Rcrdr Chan  ?) Location:", "Other", ""}, {"Chan  4: N 45 E   2nd floor: N", "N 45 E", "2nd floor: N"},
+             {"Chan  5: 90 Deg (Rcrdr: 7) Location: x", "90 Deg", "x"}, {"Chan  6", "", ""},
+             {"Chan  7: -90 Deg\tDeck", "-90 Deg", "Deck"}, {"Chan  8: Vert   Bent 5: top", "Vert", "Bent 5: top"},
+             {"Chan: 9: Up", "Up", ""}, {"chan  1: up location: 1st: N: E", "up", "1st: N: E"},
+             {"Chan. 2: Up", "Up", ""}, {"Chan 10:", "", ""}, {"Chan 11: 180 Deg   (Roof: W)", "180 Deg", "(Roof: W)"},
+             {"Chan A: S16E", "S16E", ""}, {"Chan  2:Radial  Dam: crest", "Radial", "Dam: crest"}}) {
+        const RecordComponent component = component_of(with(channel("90 Deg"), "Chan  1:  90 Deg          \n", std::string(text) + "\n"));
+        EXPECT_EQ(component.name, direction) << text;
+        EXPECT_EQ(component.place, place) << text;
+    }
+}
+// clang-format on
+
 TEST(Csmip, MayHaveAnyNumberOfChannels)
 {
     EXPECT_EQ(component_of(channel("90 Deg")).name, "90 Deg");

@@ -6,9 +6,11 @@
 #include "overturn/text/names.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace overturn {
@@ -25,6 +27,8 @@ struct RecordComponent {
     /// As in the file, such as "N28W"; empty if the file does not name it. Names may repeat. Bytes
     /// that are not UTF-8 are read as Latin-1.
     std::string name;
+    /// Where its sensor is, such as "Roof: SW"; empty if the file does not state it.
+    std::string place = {};
     std::vector<double> acceleration; ///< at least one sample [unit]
     AccelerationUnit unit = AccelerationUnit::g;
     double time_step = 0; ///< above 0 [s]
@@ -46,6 +50,20 @@ struct RecordFile {
     std::vector<RecordComponent> components;
     bool has_given_unit = false; ///< whether the unit is that of the options
 };
+
+/// A component as users choose it: its number, counted from 1, or its name.
+using ComponentChoice = std::variant<std::int64_t, std::string>;
+
+/// The chosen component, or why there is none.
+struct ChosenComponent {
+    const RecordComponent* component; ///< null unless exactly one is meant
+    bool is_ambiguous;                ///< whether several are
+    std::string refusal;              ///< follows the choice, and lists all components
+};
+
+/// file: its name, for the refusal
+ChosenComponent chosen_component(const RecordFile& content, const ComponentChoice& choice,
+                                 const std::string& file);
 
 /// What a file of plain text does not state. Both are refused if the file states them.
 struct RecordOptions {
