@@ -408,7 +408,11 @@ void print_json(const Job& job, const ToppleOptions& options, const ToppleAnswer
     const auto member = [](std::string_view name, const auto& value) {
         fmt::print("  \"{}\": {},\n", name, value);
     };
-    const std::string warning = implausible_values(job.problem.scene, job.problem.grid);
+    std::vector<std::string> warnings = remarks_on_records(job);
+    if (std::string values = implausible_values(job.problem.scene, job.problem.grid);
+        !values.empty()) {
+        warnings.insert(warnings.begin(), std::move(values));
+    }
     fmt::print("{{\n");
     const auto block = options.block | std::views::transform([](const auto& given) {
                            return fmt::format("\"{}\": {}", given.first, given.second);
@@ -443,7 +447,8 @@ void print_json(const Job& job, const ToppleOptions& options, const ToppleAnswer
     member("lifting_pga", json_of(answer.lifting_pga));
     member("pga_max", options.pga_max);
     member("narrower_ranges_exist", job.problem.scene.is_recorded() ? "true" : "null");
-    member("warnings", fmt::format("[{}]", warning.empty() ? "" : quoted_utf8(warning)));
+    member("warnings",
+           fmt::format("[{}]", fmt::join(warnings | std::views::transform(quoted_utf8), ", ")));
     fmt::print("  {},\n  \"by_restitution\": [", json_of(answer.by_restitution.front()));
     for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
         fmt::print("{}\n    {{{}}}", i > 1 ? "," : "", json_of(answer.by_restitution[i]));

@@ -28,6 +28,7 @@ class _Component(TypedDict):
     format: str
     is_uncorrected: bool
     header: list[str]
+    remarks: list[str]
 
 supports_numpy_2: bool
 safe_regions: dict[str, int]
@@ -39,4 +40,5 @@ def scene_of_record(horizontal: ArrayLike, second: ArrayLike, upwards: ArrayLike
 def numerics(scene: Scene, method: str, tolerance: float | None, resolve: bool, /) -> Numerics: ...
 def evaluate(scene: Scene, numerics: Numerics, columns: Mapping[str, Sequence[float] | NDArray[float64]],
              /) -> _Fields: ...
-def components_of(path: str, time_step: float | None, units: str | None, gravity: float, /) -> list[_Component]: ...
+def component_of(path: str, choice: int | str, time_step: float | None, units: str | None, gravity: float,
+                 /) -> _Component: ...

@@ -20,9 +20,10 @@ struct Motion {
     std::string vertical;  ///< component or file of the vertical motion as the job spells it
     std::string second;    ///< of the second horizontal component
     bool is_uncorrected;   ///< whether one of the files states that it was not corrected
-    std::vector<std::string> header; ///< lines of the file in UTF-8
-    IntensityMeasures measures;      ///< not scaled
-    std::string checksum;            ///< XXH64 of the accelerations over g, in hexadecimal digits
+    std::vector<std::string> remarks; ///< numbers of headers that differ from the samples by little
+    std::vector<std::string> header;  ///< lines of the file in UTF-8
+    IntensityMeasures measures;       ///< not scaled
+    std::string checksum;             ///< XXH64 of the accelerations over g, in hexadecimal digits
     std::shared_ptr<const Accelerogram> record;
 };
 
