@@ -47,8 +47,9 @@ ChannelName channel_name(Lines header, std::size_t end)
     static const std::regex channel(R"(^[ \t]*(?:sta +)?chan?[:.]?[ \t]*[^ :(]*[ \t]*:(.*)$)",
                                     std::regex::icase);
     constexpr std::string_view location = "location:";
+    constexpr std::size_t most_characters = 200; // std::regex calls itself for each
     while (header.number() + 1 < end && header.next()) {
-        const std::string line(header.line());
+        const std::string line(header.line().substr(0, most_characters));
         std::smatch found;
         if (!std::regex_match(line, found, channel)) {
             continue;

@@ -229,10 +229,13 @@ void take_each_column(Lines& lines, const Columns& columns, const Announcement& 
 std::vector<Printed> take_printed(Lines& lines, const Columns& columns,
                                   const Announcement& announced)
 {
+    constexpr std::size_t most_kept = 1000;
     std::vector<Printed> numbers;
     take_each_column(lines, columns, announced, [&](const Lines& line, std::string_view word) {
         number_of(line, word);
-        numbers.push_back({line, word});
+        if (numbers.size() < most_kept) {
+            numbers.push_back({line, word});
+        }
     });
     return numbers;
 }

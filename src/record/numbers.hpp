@@ -61,7 +61,8 @@ struct Printed {
 };
 
 /// The announced numbers, from the next lines that are not blank. Refuses lines with more or fewer
-/// numbers, numbers that continue beyond their column, and what is not a number.
+/// numbers, numbers that continue beyond their column, and what is not a number. Keeps the first
+/// 1000, which is more than any header needs.
 std::vector<Printed> take_printed(Lines& lines, const Columns& columns,
                                   const Announcement& announced);
 

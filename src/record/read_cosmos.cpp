@@ -198,21 +198,22 @@ std::optional<RecordComponent> take_channel(Lines& lines)
     const bool is_named = !is_one_of(lower(name.direction), {"", "?", "other"});
     const auto [time_step, rounding] = time_step_of(reals);
     const auto unit = unit_of(announcing, integers[3]);
+    // 0: counts, 1: accelerations, 2: corrected ones
+    const bool is_raw = integers[1].value_or(2) < 2 || is_uncorrected(before);
     std::vector<std::string> remarks = compare(
         stated_numbers({before, integers, reals, announcing, !unit}), {.lines = announcing,
                                                                        .values = samples,
                                                                        .unit = unit,
                                                                        .time_step = time_step,
                                                                        .rounding = rounding,
-                                                                       .may_have_offset = !unit});
+                                                                       .may_have_offset = is_raw});
     return RecordComponent{.name = is_named || code.empty() ? std::move(name.direction) : code,
                            .place = std::move(name.place),
                            .acceleration =
                                unit ? std::move(samples) : over_g(reals, std::move(samples)),
                            .unit = unit.value_or(AccelerationUnit::g),
                            .time_step = time_step,
-                           // 0: counts, 1: accelerations, 2: corrected ones
-                           .is_uncorrected = integers[1].value_or(2) < 2 || is_uncorrected(before),
+                           .is_uncorrected = is_raw,
                            .remarks = std::move(remarks),
                            .header = kept_lines(before, announcing.number())};
 }

@@ -28,12 +28,10 @@ std::vector<StatedNumber> stated_numbers(const KeyedHeader& header)
     }
     if (const auto peak = header.find("PGA_")) {
         const std::size_t colon = std::min(peak->value.find(':'), peak->value.size());
-        const std::string_view unit = peak->value.substr(0, colon);
-        stated.push_back({.what = Stated::peak,
-                          .lines = peak->lines,
-                          .name = "PGA",
-                          .word = word_after(peak->value, ":"),
-                          .unit = unit_of_samples(peak->lines, trimmed(unit))});
+        if (const auto unit = unit_named(trimmed(peak->value.substr(0, colon)))) {
+            stated.push_back(
+                {Stated::peak, peak->lines, "PGA", word_after(peak->value, ":"), unit});
+        }
     }
     if (const auto time = header.find("TIME_PGA_S:")) {
         stated.push_back({Stated::time_of_peak, time->lines, "TIME_PGA_S", time->value});

@@ -62,20 +62,17 @@ ScaleFactor scale_factor(const KeyedHeader::Entry& entry)
     return factor;
 }
 
-/// `Max. Acc. (gal)   6.847`, if the header states it
+/// `Max. Acc. (gal)   6.847`, if the header states it in a unit that is understood
 std::vector<StatedNumber> stated_peak(const KeyedHeader& header)
 {
     const auto peak = header.find("Max. Acc.");
-    if (!peak) {
+    const std::string_view text = peak ? peak->value : "";
+    const std::size_t end = std::min(text.find(')'), text.size());
+    const auto unit = unit_named(trimmed(text.substr(0, end).substr(text.find('(') + 1)));
+    if (!unit) {
         return {};
     }
-    const std::size_t end = std::min(peak->value.find(')'), peak->value.size());
-    const std::string_view unit = peak->value.substr(0, end);
-    return {{.what = Stated::peak,
-             .lines = peak->lines,
-             .name = "Max. Acc.",
-             .word = word_after(peak->value, ")"),
-             .unit = unit_of_samples(peak->lines, trimmed(unit.substr(unit.find('(') + 1)))}};
+    return {{Stated::peak, peak->lines, "Max. Acc.", word_after(text, ")"), unit}};
 }
 
 } // namespace

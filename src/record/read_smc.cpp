@@ -31,20 +31,33 @@ double samples_per_second(const Lines& lines)
     return sampling_rate_of(lines, word);
 }
 
-/// Refuses samples of which every other one is a time.
+/// Whether every other sample, beginning with this one, is at least as large as the one before it.
+bool do_not_decrease(const std::vector<double>& samples, std::size_t first)
+{
+    for (std::size_t i = first + 2; i < samples.size(); i += 2) {
+        if (samples[i] < samples[i - 2]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Refuses samples of which every other one is a time, which may be equal in the printed digits.
 void expect_no_times(const Lines& rates, const std::vector<double>& samples)
 {
     constexpr std::size_t least_samples = 8; // of fewer, accelerations may increase
-    bool do_increase = samples.size() >= least_samples && samples.size() % 2 == 0;
-    for (std::size_t i = 2; i < samples.size() && do_increase; i += 2) {
-        do_increase = samples[i] > samples[i - 2];
+    if (samples.size() < least_samples || samples.size() % 2 != 0) {
+        return;
     }
-    if (do_increase && samples.front() >= 0) {
-        rates.refuse("the header states {} samples per second, but every other sample is larger "
-                     "than the one before it, from {} to {}: the samples are pairs of times and "
-                     "accelerations. Interpolate the accelerations at even times, and give both as "
-                     "text.",
-                     column_of(rates.line(), 15, 1), samples.front(), samples[samples.size() - 2]);
+    const double first = samples.front();
+    const double last = samples[samples.size() - 2];
+    if (0 <= first && first < last && do_not_decrease(samples, 0) && !do_not_decrease(samples, 1)) {
+        rates.refuse(
+            "the header states {} samples per second, but every other sample is at least "
+            "as large as the one before it, from {} to {}: the samples are pairs of times "
+            "and accelerations. Interpolate the accelerations at even times, and give both "
+            "as text.",
+            column_of(rates.line(), 15, 1), first, last);
     }
 }
 
