@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace overturn {
 
@@ -28,7 +27,7 @@ constexpr double largest_allowed = 0.05;
 double printed_rounding(const StatedNumber& stated, double value)
 {
     constexpr double of_single_precision = 0x1p-23;
-    return std::max(rounding_of(stated.word) * stated.factor, stated.least_rounding) +
+    return std::max(rounding_of(stated.word), stated.least_rounding) +
            of_single_precision * std::abs(value);
 }
 
@@ -75,10 +74,12 @@ double size_of(double acceleration, Stated what)
 double stated_size(const Samples& samples, double offset, Stated what)
 {
     if (what == Stated::root_mean_square) {
-        const double sum = std::accumulate(
-            samples.values.begin(), samples.values.end(), 0.0,
-            [&](double part, double value) { return part + (value - offset) * (value - offset); });
-        return std::sqrt(sum / double(samples.values.size()));
+        const double peak = stated_size(samples, offset, Stated::peak);
+        double sum = 0; // of squares over that of the peak
+        for (const double value : samples.values) {
+            sum += peak > 0 ? std::pow((value - offset) / peak, 2) : 0;
+        }
+        return peak * std::sqrt(sum / double(samples.values.size()));
     }
     double largest = -not_at_all;
     for (const double value : samples.values) {
@@ -92,8 +93,11 @@ std::vector<double> offsets_of(const Samples& samples)
 {
     std::vector<double> offsets{0};
     if (samples.may_have_offset) {
-        offsets.push_back(std::accumulate(samples.values.begin(), samples.values.end(), 0.0) /
-                          double(samples.values.size()));
+        double mean = 0;
+        for (const double value : samples.values) {
+            mean += value / double(samples.values.size());
+        }
+        offsets.push_back(mean);
     }
     return offsets;
 }
@@ -106,7 +110,9 @@ Difference from_peak(const StatedNumber& stated, double value, const Samples& sa
     for (const double offset : offsets_of(samples)) {
         const double found = factor * stated_size(samples, offset, stated.what);
         const double difference = std::abs(size - found) - printed_rounding(stated, value);
-        const double relative = std::max(difference, 0.0) / std::abs(found);
+        const double relative = difference <= 0 ? 0
+                                : found == 0    ? not_at_all
+                                                : difference / std::abs(found);
         if (relative < least.relative || least.found.empty()) {
             least = {relative,
                      fmt::format("that of the samples is {:.6g} {}", size_of(found, stated.what),
@@ -137,12 +143,12 @@ Difference from_time_of_peak(const StatedNumber& stated, double time, const Samp
 }
 
 /// rounding: of both numbers
-Difference from_time_step(double stated, double time_step, double rounding, std::string_view unit)
+Difference from_time_step(double stated, double time_step, double rounding)
 {
     const double difference = std::abs(stated - time_step);
     return {difference <= std::min(rounding, largest_allowed * time_step) ? difference / time_step
                                                                           : not_at_all,
-            fmt::format("that of the samples is {:.6g} {}", time_step, unit)};
+            fmt::format("that of the samples is {:.6g} s", time_step)};
 }
 
 Difference from_duration(const StatedNumber& stated, double duration, const Samples& samples)
@@ -168,10 +174,7 @@ Difference difference_from(const StatedNumber& stated, double value, const Sampl
         return {value == double(samples.values.size()) ? 0 : not_at_all,
                 fmt::format("there are {}", samples.values.size())};
     case Stated::time_step:
-        return from_time_step(value, step, std::max(rounding, samples.rounding), "s");
-    case Stated::rate:
-        return from_time_step(value, 1 / step, std::max(rounding, samples.rounding / (step * step)),
-                              "Hz");
+        return from_time_step(value, step, std::max(rounding, samples.rounding));
     case Stated::duration: return from_duration(stated, value, samples);
     case Stated::peak:
     case Stated::highest:
@@ -185,12 +188,11 @@ std::string name_of_unit(const StatedNumber& stated, const Samples& samples)
 {
     switch (stated.what) {
     case Stated::count: return "";
-    case Stated::rate: return " Hz";
     case Stated::peak:
     case Stated::highest:
     case Stated::lowest:
     case Stated::root_mean_square: return " " + name_of_unit(unit_of_peak(stated, samples));
-    default: return stated.factor == 0.001 ? " ms" : " s";
+    default: return " s";
     }
 }
 
@@ -225,7 +227,7 @@ std::vector<std::string> compare(const std::vector<StatedNumber>& stated, const 
         if (printed == 0 || is_mark_of_unknown(printed) || is_of_counts) {
             return;
         }
-        const Difference difference = difference_from(number, printed * number.factor, samples);
+        const Difference difference = difference_from(number, printed, samples);
         const std::string text = fmt::format("{} is {}{}, but {}", number.name, number.word,
                                              name_of_unit(number, samples), difference.found);
         // The window of a mean, and the origin of a time, are not stated.
@@ -238,8 +240,7 @@ std::vector<std::string> compare(const std::vector<StatedNumber>& stated, const 
         if (difference.relative > noticeable) {
             remarks.push_back(fmt::format("{}: {}", number.lines.place(), text));
         }
-        is_confirmed |= number.what == Stated::time_step || number.what == Stated::rate ||
-                        number.what == Stated::duration;
+        is_confirmed |= number.what == Stated::time_step || number.what == Stated::duration;
     };
     for (const bool are_times_of_peaks : {false, true}) {
         for (const StatedNumber& number : stated) {

@@ -16,7 +16,6 @@ namespace overturn {
 enum class Stated {
     count,
     time_step,
-    rate,
     duration, ///< of all samples, or between the first and the last one
     peak,
     highest,
@@ -34,7 +33,6 @@ struct StatedNumber {
     std::string_view name;                     ///< for messages, such as "DURATION_S"
     std::string_view word;                     ///< as printed
     std::optional<AccelerationUnit> unit = {}; ///< of a peak, if it is not that of the samples
-    double factor = 1;                         ///< converts a time to seconds
     double least_rounding = 0;                 ///< of a number that is called approximate
     double start = 0; ///< time of the first sample, if that of a peak counts from another one [s]
 };
@@ -50,7 +48,7 @@ struct Samples {
 };
 
 /// Compares the numbers with the samples. Refuses samples that are marks of missing values and more
-/// than twice as large as all others; another count; intervals, rates and durations
+/// than twice as large as all others; another count; intervals and durations
 /// that differ by more than their digits allow; peaks that differ by more than 5 %; and times of
 /// peaks, unless another number confirms the time step. Returns a remark on each acceleration that
 /// differs by more than 1 %, and on each other difference that is not refused. Words that are not
