@@ -137,6 +137,37 @@ TEST(Cosmos, GivesCountsWithoutTheirMeanInG)
     }
 }
 
+/// Counts, with more reals.
+std::string counts_with(const std::vector<std::pair<int, std::string>>& reals)
+{
+    Options options = counts;
+    options.reals.insert(options.reals.end(), reals.begin(), reals.end());
+    return channel(options);
+}
+
+TEST(Cosmos, ComparesCountsWithAPeakWithOrWithoutTheirMean)
+{
+    for (const char* peak : {"109", "-109", "18", "-18.00"}) { // the mean is 100
+        EXPECT_EQ(component_of(counts_with({{64, peak}})).remarks.size(), 0) << peak;
+    }
+    for (const char* peak : {"120", "98.1", "54.5", "218", "36", "1.835"}) {
+        EXPECT_NE(refusal_of(counts_with({{64, peak}})), "") << peak;
+    }
+}
+
+TEST(Cosmos, ComparesTheSensitivityOfTheSensorWithItsFullScale)
+{
+    for (const auto& [volts, g] : std::vector<std::pair<const char*, const char*>>{
+             {"2.5", "2.0"}, {"1.25", "1"}, {"5.0", "4.0"}, {"2.5", "-999"}, {"-999", "2.0"}}) {
+        EXPECT_EQ(refusal_of(counts_with({{43, volts}, {44, g}})), "") << volts << " V, " << g;
+    }
+    EXPECT_EQ(
+        refusal_of(counts_with({{43, "2.5"}, {44, "2.2"}})),
+        "a.txt:17: the sensitivity of the sensor, real 42 of the header, is 1.25 V/g, but its "
+        "full scale, reals 43 and 44, is 2.5 V at 2.2 g. Give the file as it was published, or "
+        "correct the wrong one.");
+}
+
 TEST(Cosmos, MayHaveAnyFormatOfTheValues)
 {
     const std::vector<std::pair<const char*, const char*>> formats{
