@@ -146,6 +146,7 @@ void print_scene(const Job& job)
     if (!scene.is_recorded()) {
         print_pulse(scene);
     }
+    print_motion_of("motion", scene.motion_of);
     print_row("theory", name_of(scene.theory));
     print_row("method",
               fmt::format("{}, tolerance {}{}", name_of(numerics.method), numerics.tolerance,
@@ -194,7 +195,7 @@ int check(const JobSource& source)
     if (const std::string names = unused_columns(job); !names.empty()) {
         print_row("columns", names + ": stored, without effect");
     }
-    print_row("ground", ground_line(job));
+    print_row(name_of(job.problem.scene.motion_of), ground_line(job));
     for (const std::string& line : free_fall_lines(job)) {
         print_row("note", line);
     }

@@ -170,7 +170,8 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
     };
     add_block(command, options.block);
     add_text(command, "--direction", options.direction, "DEGREES",
-             "180: the mirror image; any angle with --set scene.second_component=...");
+             "0, or 180: the mirror image; default: 0, and 180 too if the sides of the block "
+             "differ; any angle with --set scene.second_component=...");
     number("--period", options.period, "S", "Period of the pulse [s], unless --record is given");
     number("--pga", options.pga, "G", "Peak ground acceleration over g; without it, only ranges",
            largest_pga);

@@ -46,14 +46,18 @@ inline constexpr const char* topple = R"(Examples:
   overturn topple --width 0.6 --height 1.8 --period 0.5 --pga 0.4
   overturn topple --width 0.6 --height 1.8 --record jobs/synthetic.AT2 --scale 1.5 --history tilt.h5
 
-Prints whether a rigid block topples, its peak tilt, the peak ground acceleration (PGA) that lifts
-it, and the ranges of the PGA in which it topples or the verdict is undecided: for the given
-restitution, and for 0.8 to 1 times r_max, because restitutions are rarely known. Accelerations
+Prints whether a rigid block topples and the nearest strengths that topple it, its peak tilt, the
+peak ground acceleration (PGA) that lifts it, and the ranges of the PGA in which it topples or the
+verdict is undecided: for the given restitution, and for 0.8 to 1 times r_max, because restitutions
+are rarely known. Of a block with two different sides, both directions of the motion are computed
+unless --direction is given; the worse one comes first, and --history writes it. Accelerations
 within the search and in none of the ranges are safe, except for very narrow ranges that may be
-missed. The search ends at --pga-max, or where the vertical motion cancels gravity. g is 9.81 m/s2,
-unless --set scene.gravity=... changes it. Values that are probably in another unit cause a warning.
-The exit code is 0 whatever the verdict. Spectra and suites of records need a job file: see overturn
-run.)";
+missed. "34 % of 0.6 to 0.7 g" stands for several ranges. The search ends at --pga-max, or where the
+vertical motion cancels gravity. g is 9.81 m/s2, unless --set scene.gravity=... changes it. Values
+that are probably in another unit cause a warning. If a record is the motion of a floor
+(--set scene.motion_of=floor, unless its file states this), all accelerations are those of the
+floor, from its peak floor acceleration (PFA). The exit code is 0 whatever the verdict. Spectra and
+suites of records need a job file: see overturn run.)";
 
 inline constexpr const char* check = R"(Example:
   overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }'

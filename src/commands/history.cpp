@@ -11,15 +11,14 @@
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
 #include "overturn/text/is_one_of.hpp"
+#include "overturn/text/parse_number.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <ranges>
 #include <string_view>
-#include <system_error>
 
 namespace overturn {
 
@@ -44,9 +43,7 @@ At read_at(const std::string& given)
                     "--at frequency=3,amplitude=1.5.",
                     given, fmt::join(keys_of("plane"), ", "));
     }
-    double number = 0;
-    const auto [end, failure] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (failure == std::errc::invalid_argument || end != value.data() + value.size()) {
+    if (!is_whole(parse_number(value), value)) {
         throw Error(exit_code::usage, "--at {}: {} is not a number. Give one, such as --at {}=3.",
                     given, value, axis);
     }

@@ -27,6 +27,7 @@ void print_origin(const std::string& path, const FileOrigin& origin)
     }
     print_row("file", fmt::format("{}, {}", path, human_bytes(double(origin.bytes))));
     print_row("contains", contents[std::size_t(origin.kind)]);
+    print_motion_of("motion", origin.motion_of);
     print_row("made by", printable(fmt::format("overturn {} (commit {})", origin.program_version,
                                                origin.program_commit)));
 }

@@ -37,8 +37,8 @@ std::string degrees_text(const Extent& angle)
     return Extent{in_degrees(angle.first), in_degrees(angle.last)}.text(" degrees");
 }
 
-/// What describes blocks with two different sides: alpha, p and R of the sides plus and minus,
-/// r_max.
+/// What describes blocks with two different sides: the incline unless the base is level, alpha, p
+/// and R of the sides plus and minus, r_max.
 std::string two_sides_line(const Job& job)
 {
     const auto of_both = [&](std::string_view plus, std::string_view minus, const auto& text) {
@@ -48,7 +48,11 @@ std::string two_sides_line(const Job& job)
     const auto in = [](std::string_view unit) {
         return [unit](const Extent& extent) { return extent.text(unit); };
     };
-    return fmt::format("alpha = {}; R = {}; p = {} (g = {} m/s2); r_max = {}{}",
+    constexpr double rounding = 1e-12; // [rad], of an incline that angles and distances imply
+    const Extent incline = *extent_of(job, "incline");
+    const bool is_level = std::max(-incline.first, incline.last) < rounding;
+    return fmt::format("{}alpha = {}; R = {}; p = {} (g = {} m/s2); r_max = {}{}",
+                       is_level ? "" : fmt::format("incline {}, ", degrees_text(incline)),
                        of_both("slenderness_plus", "slenderness_minus", degrees_text),
                        of_both("size_plus", "size_minus", in(" m")),
                        of_both("frequency_parameter", "frequency_parameter_minus", in(" 1/s")),
@@ -87,13 +91,6 @@ std::vector<std::string> lines_of_equal_records(const Job& job)
 }
 
 } // namespace
-
-std::optional<double> r_max_of_only_block(const Job& job)
-{
-    return job.problem.grid.has_two_sides()
-               ? std::optional(extent_of(job, "largest_restitution")->first)
-               : r_max_of(extent_of(job, "slenderness")->first);
-}
 
 std::string block_line(const Job& job)
 {
@@ -137,8 +134,14 @@ std::string contact_line(const Job& job)
         const std::string last = fmt::format("{:.3g}", extent.last);
         return first == last ? first : fmt::format("{} to {}", first, last);
     };
+    const auto impact_text = [&] {
+        constexpr std::string_view none = "more than any, since the base would have to pull";
+        return std::isfinite(impact.last)    ? text(impact)
+               : std::isfinite(impact.first) ? fmt::format("from {:.3g} to {}", impact.first, none)
+                                             : std::string(none);
+    };
     return fmt::format("lifting needs a friction coefficient of {} (b / h), an impact {}{}",
-                       text(lift), text(impact),
+                       text(lift), impact_text(),
                        lift.last > large ? fmt::format("; few contacts have more than {}", large)
                                          : "");
 }
@@ -308,7 +311,7 @@ void warn_of_probable_mistakes(const Job& job)
         }
         if (is_one_of(column.name, keys_of("scene")) || find_quantity(column.name) != nullptr) {
             warn(fmt::format("the column {} of {} has no effect: it is a key of the job, but not a "
-                             "property of the blocks under this ground motion",
+                             "property of the blocks under this motion",
                              in_quotes(column.name), job.blocks->file));
         } else if (const std::string_view meant = quantity_meant_by(column.name, grid);
                    !meant.empty()) {

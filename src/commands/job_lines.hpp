@@ -21,9 +21,6 @@ inline double in_degrees(double angle)
 /// The extent of a coordinate over all points of a job; nullopt if the coordinate is not known.
 std::optional<Extent> extent_of(const Job& job, std::string_view name);
 
-/// r_max of the only block of a job, if it exists.
-std::optional<double> r_max_of_only_block(const Job& job);
-
 std::string block_line(const Job& job);
 
 /// A line about the friction coefficients that rocking needs.

@@ -16,16 +16,17 @@
 
 namespace overturn {
 
-inline Point only_point_of(const Job& job)
+inline Point only_point_of(const Problem& problem)
 {
-    return Coordinates(job.problem.scene, job.problem.grid).points().front();
+    return Coordinates(problem.scene, problem.grid).points().front();
 }
 
 /// alpha of the only block of a job; nullopt if it has two sides [rad].
 inline std::optional<double> slenderness_of_only_block(const Job& job)
 {
-    return job.problem.grid.has_two_sides() ? std::nullopt
-                                            : std::optional(only_point_of(job).block.slenderness);
+    return job.problem.grid.has_two_sides()
+               ? std::nullopt
+               : std::optional(only_point_of(job.problem).block.slenderness);
 }
 
 /// Throws Error if the motion overflows; a spectrum flags such a point instead.
@@ -53,7 +54,7 @@ inline History history_of_only_point(const Job& job, HistoryView view = {})
     if (scene.is_recorded()) {
         view.samples = int(std::max<std::int64_t>(view.samples, scene.records.front()->samples()));
     }
-    History history = history_of(scene, only_point_of(job), view);
+    History history = history_of(scene, only_point_of(job.problem), view);
     expect_finite(history, job.problem.grid);
     return history;
 }

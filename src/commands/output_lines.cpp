@@ -11,6 +11,13 @@ constexpr double least_scaled = 999.5; // would be printed as 1000
 
 } // namespace
 
+void print_motion_of(std::string_view name, MotionOf motion_of)
+{
+    if (motion_of == MotionOf::floor) {
+        print_row(name, "that of a floor: pga and pgv are its peaks (PFA, PFV)");
+    }
+}
+
 std::string human_count(double count)
 {
     if (!(count >= least_scaled)) {

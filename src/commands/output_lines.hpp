@@ -3,6 +3,7 @@
 #pragma once
 
 #include "overturn/problem/quantity.hpp"
+#include "overturn/text/motion_words.hpp"
 
 #include <fmt/format.h>
 
@@ -56,5 +57,8 @@ std::string human_duration(double seconds);
 
 /// "640 bytes", "12.0 kB", "3.60 GB": powers of 1000.
 std::string human_bytes(double bytes);
+
+/// Prints a row on the motion of a floor; nothing about that of the ground.
+void print_motion_of(std::string_view name, MotionOf motion_of);
 
 } // namespace overturn

@@ -6,7 +6,8 @@
 #include "only_point.hpp"
 #include "output_lines.hpp"
 #include "progress.hpp"
-#include "verdict_ranges.hpp"
+#include "toppling.hpp"
+#include "verdict_text.hpp"
 
 #include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"
@@ -20,7 +21,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <ranges>
@@ -28,24 +28,6 @@
 namespace overturn {
 
 namespace {
-
-struct RestitutionAnswer {
-    double share; ///< r / r_max; NaN if there is no r_max
-    double ratio; ///< r
-    VerdictRanges ranges;
-};
-
-struct ToppleAnswer {
-    std::optional<Verdict> verdict; ///< nullopt if not requested
-    double peak = 0;                ///< |theta| / alpha
-    std::optional<double> friction; ///< see Field::friction; nullopt in the linear theory
-    /// For each toppling range of the requested restitution: the largest friction from uplift to
-    /// its lower end, NaN if one is unknown; empty in the linear theory.
-    std::vector<double> friction_to_topple;
-    double pga = 0; ///< of the requested point
-    double lifting_pga = 0;
-    std::vector<RestitutionAnswer> by_restitution; ///< the requested one first
-};
 
 /// The name of a file or component, or another text, as a string of TOML and JSON. Throws Error if
 /// it is not UTF-8.
@@ -112,111 +94,63 @@ void expect_consistent(const ToppleOptions& options)
               "--history is that of one acceleration. Give --pga or --scale.");
 }
 
-/// See ToppleAnswer::friction_to_topple. unit: the peak acceleration of the strength 1.
-std::vector<double> friction_to_topple(const Problem& of_one_point, const VerdictRanges& ranges,
-                                       double unit)
+/// The job of each direction that is computed.
+std::vector<Job> jobs_of(ToppleOptions options)
 {
-    const Scene& scene = of_one_point.scene;
-    const auto toppling = ranges.with(Verdict::topples);
-    if (toppling.empty() || scene.theory != Theory::nonlinear) {
-        return {};
-    }
-    // At the end itself, whether the block topples, and with it the friction, may be unknown.
-    const std::vector<double> ends = mapped(toppling, [](const VerdictRange& range) {
-        return range.first + std::min(1e-6 * range.first, (range.last - range.first) / 2);
-    });
-    std::vector<double> accelerations = ends;
-    if (const double highest = accelerations.back(); ranges.lifting < highest) {
-        const std::vector<double> scan = scanned_accelerations(scene, ranges.lifting, highest);
-        accelerations.insert(accelerations.end(), scan.begin(), scan.end());
-    }
-    std::ranges::sort(accelerations);
-    const auto [begin, end] = std::ranges::unique(accelerations);
-    accelerations.erase(begin, end);
-    const std::vector<double> strengths = mapped(accelerations, [&](double acceleration) {
-        return scene.is_recorded() ? acceleration / unit : acceleration;
-    });
-    Problem problem = of_one_point;
-    std::erase_if(problem.grid.numbers,
-                  [](const Column& number) { return number.quantity->role == Role::strength; });
-    const std::string strength = scene.is_recorded() ? "scale" : "pga";
-    problem.grid.dimensions = {{strength, {{&quantity(strength), Axis(AxisList(strengths))}}}};
-    const std::vector<double> friction = accurate_values(problem, Field::friction);
-    std::vector<double> needed;
-    double largest = 0; // NaN as soon as one is unknown
-    for (std::size_t i = 0; i < accelerations.size(); ++i) {
-        const bool is_covered = std::isnan(largest) || std::islessequal(friction[i], largest);
-        largest = is_covered ? largest : friction[i];
-        if (needed.size() < ends.size() && accelerations[i] == ends[needed.size()]) {
-            needed.push_back(largest);
+    const auto job = [&] {
+        return read_job_text(job_text(options), command_line, options.overrides);
+    };
+    std::vector<Job> jobs{job()};
+    const std::vector<double> directions = directions_of(jobs.front().problem);
+    if (directions.size() > 1) {
+        jobs.clear();
+        for (const double direction : directions) {
+            options.direction = direction;
+            jobs.push_back(job());
         }
     }
-    return needed;
+    return jobs;
 }
 
-/// In the order of the enumerators of Verdict.
-constexpr std::array<std::string_view, 3> verdict_texts{"does not topple", "topples", "undecided"};
-
-ToppleAnswer answer_of(const Job& job, const ToppleOptions& options)
-{
+/// A direction that is computed, and the answer for it.
+struct DirectedAnswer {
+    Job job;
+    std::optional<History> history; ///< if the options ask for it
     ToppleAnswer answer;
-    const Scene& scene = job.problem.scene;
-    const Point point = only_point_of(job);
-    const double unit = pga_of_unit(scene, point);
-    if (!(unit > 0)) {
-        throw Error(
-            exit_code::job,
-            "the record has no motion in the direction of {} degrees: its components cancel. "
-            "Choose another --direction.",
-            options.direction.value_or(0));
+};
+
+/// The answers for all directions, the worst one first. Histories, which may be refused, are
+/// computed before the answers, which may take minutes.
+std::vector<DirectedAnswer> answers_for(std::vector<Job> jobs, const ToppleOptions& options)
+{
+    std::optional<Progress> progress;
+    std::vector<DirectedAnswer> all;
+    for (Job& job : jobs) {
+        auto history =
+            options.history.empty() ? std::nullopt : std::optional(history_of_only_point(job));
+        all.push_back({std::move(job), std::move(history), {}});
     }
-    const double of_direction = std::signbit(point.amplitude) ? -1 : 1; // mirrored
-    answer.pga = options.pga ? *options.pga : std::abs(point.amplitude) * unit;
-    if (options.pga || options.scale) {
-        answer.peak = accurate_values(job.problem, Field::peak).front();
-        answer.verdict = std::isnan(answer.peak)   ? Verdict::undecided
-                         : std::isinf(answer.peak) ? Verdict::topples
-                                                   : Verdict::safe;
-        if (scene.theory == Theory::nonlinear) {
-            answer.friction = accurate_values(job.problem, Field::friction).front();
+    std::size_t answered = 0;
+    ToppleQuestion question{options.pga || options.scale, options.pga, options.pga_max};
+    question.progress = [&](std::size_t done, std::size_t restitutions) {
+        if (!progress) {
+            progress.emplace(0, std::int64_t(all.size() * restitutions), "restitutions");
         }
-    }
-    answer.lifting_pga = lifting_pga(scene, point);
-    const double requested = point.block.restitution;
-    const auto r_max = r_max_of_only_block(job);
-    std::vector<double> ratios{requested};
-    if (r_max) {
-        for (const double share : {0.8, 0.85, 0.9, 0.95, 1.0}) {
-            ratios.push_back(share * *r_max);
-        }
-    }
-    Progress progress(0, std::int64_t(ratios.size()), "restitutions");
-    const auto show_progress = [&] {
-        progress.update(std::int64_t(answer.by_restitution.size()));
-        return false;
+        progress->update(std::int64_t(answered * restitutions + done));
     };
-    const double end = std::max(options.pga_max, answer.pga);
-    for (const double ratio : ratios) {
-        if (!answer.by_restitution.empty() && ratio == requested) {
-            answer.by_restitution.push_back(answer.by_restitution.front());
-            continue;
-        }
-        BoundaryLine line{.point = point, .unit = of_direction * unit};
-        line.point.block.restitution = ratio;
-        answer.by_restitution.push_back(
-            {r_max ? ratio / *r_max : std::numeric_limits<double>::quiet_NaN(), ratio,
-             verdict_ranges(scene, line, answer.lifting_pga, end, answer.pga, show_progress)});
+    for (DirectedAnswer& each : all) {
+        each.answer = answer_of(each.job.problem, question);
+        ++answered;
     }
-    answer.friction_to_topple =
-        friction_to_topple(job.problem, answer.by_restitution.front().ranges, unit);
-    return answer;
+    std::ranges::stable_sort(all, is_worse, &DirectedAnswer::answer);
+    return all;
 }
 
 /// Such as "0.46 at 0.9034 g, 0.65 at 2.1296 g".
 std::string friction_to_topple_text(const ToppleAnswer& answer, int decimals)
 {
     constexpr std::size_t most = 3;
-    const auto toppling = answer.by_restitution.front().ranges.with(Verdict::topples);
+    const auto toppling = answer.requested().ranges.with(Verdict::topples);
     std::vector<std::string> list;
     for (std::size_t i = 0; i < std::min(most, toppling.size()); ++i) {
         const double friction = answer.friction_to_topple[i];
@@ -252,7 +186,8 @@ std::string shape_text(const Scene& scene, const char* format)
     return text;
 }
 
-/// Dimensions that the command line gives, such as "0.55 m x 2.1 m, incline 1.5 degrees, ".
+/// Dimensions that the command line gives, such as "0.55 m x 2.1 m, height of the centre of mass 1
+/// m, ".
 std::string dimensions_text(const std::map<std::string, double>& given)
 {
     std::string text;
@@ -264,14 +199,12 @@ std::string dimensions_text(const std::map<std::string, double>& given)
             text += fmt::format("{} {} m, ", quantity(name).long_name, given.at(name));
         }
     }
-    if (given.contains("incline")) {
-        text += fmt::format("incline {:.4g} degrees, ", in_degrees(given.at("incline")));
-    }
     return text;
 }
 
-void print_question(const Job& job, const ToppleOptions& options)
+void print_question(const std::vector<DirectedAnswer>& all, const ToppleOptions& options)
 {
+    const Job& job = all.front().job;
     const Scene& scene = job.problem.scene;
     print_row("block", dimensions_text(options.block) + block_line(job));
     const std::string motion = scene.is_recorded()
@@ -279,26 +212,20 @@ void print_question(const Job& job, const ToppleOptions& options)
                                    : fmt::format("{}, period {} s{}", name_of(scene.pulse),
                                                  *options.period, shape_text(scene, ", {} {}"));
     std::string direction;
-    if (options.direction) {
+    if (all.size() > 1) {
+        direction = "; directions 0 and 180 degrees, its mirror image";
+    } else if (options.direction) {
         direction = fmt::format("; direction {} degrees", *options.direction);
     }
     if (scene.has_two_components()) {
-        direction += fmt::format(", {:.3g} g", pga_of_unit(scene, only_point_of(job)));
+        direction += fmt::format(", {:.3g} g", all.front().answer.unit);
     }
     print_row("motion", motion + direction);
+    print_motion_of("", scene.motion_of);
     if (scene.theory != Theory::nonlinear) {
         print_row("theory", name_of(scene.theory));
     }
-}
-
-void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnswer& answer)
-{
-    const auto alpha = slenderness_of_only_block(job);
-    const RestitutionAnswer& requested = answer.by_restitution.front();
-    const Scene& scene = job.problem.scene;
-    const bool is_recorded = scene.is_recorded();
-    const int decimals = requested.ranges.decimals(answer.pga);
-    print_question(job, options);
+    const RestitutionAnswer& requested = all.front().answer.requested();
     print_row(
         "restitution",
         std::isnan(requested.share)
@@ -306,40 +233,78 @@ void print_answer(const Job& job, const ToppleOptions& options, const ToppleAnsw
         : requested.share == 1
             ? fmt::format("r = r_max = {:.4g}", requested.ratio)
             : fmt::format("r = {:.4g} = {:.4g} r_max", requested.ratio, requested.share));
-    if (answer.verdict) {
-        const std::string_view verdict = verdict_texts[std::size_t(*answer.verdict)];
-        print_row("verdict", options.pga
-                                 ? fmt::format("{} at {} g", verdict, *options.pga)
-                                 : fmt::format("{} at {} times the record, {:.{}f} g", verdict,
-                                               *options.scale, answer.pga, decimals));
-        print_row("peak tilt", peak_text(answer.peak, alpha));
-        if (answer.friction) {
-            print_row("friction", friction_text(*answer.friction));
+}
+
+/// The sentences of the verdict for every direction.
+std::vector<std::string> verdicts_of(const std::vector<DirectedAnswer>& all,
+                                     const ToppleOptions& options)
+{
+    std::vector<std::string> sentences;
+    for (const auto& [job, history, answer] : all) {
+        std::string place;
+        if (all.size() > 1) {
+            place = fmt::format(" in direction {}", answer.direction);
+            place += sentences.empty() ? fmt::format(", worse than {}", all.back().answer.direction)
+                                       : "";
+        }
+        if (answer.verdict) {
+            sentences.push_back(verdict_sentence(answer, options.scale, place));
         }
     }
+    return sentences;
+}
+
+void print_ranges(const Scene& scene, const ToppleAnswer& answer)
+{
+    const VerdictRanges& requested = answer.requested().ranges;
+    const int decimals = requested.decimals(answer.pga);
     print_row("lifts from", fmt::format("{:.4f} g", rounded_down(answer.lifting_pga, 4)));
-    print_row("topples", requested.ranges.text(decimals, 20) +
-                             (requested.ranges.ends_in_free_fall
+    print_row("topples", requested.text(decimals) +
+                             (requested.ends_in_free_fall
                                   ? fmt::format("; at {:.6g} g the vertical motion cancels gravity",
-                                                requested.ranges.end_of_search())
+                                                requested.end_of_search())
                                   : ""));
     if (!answer.friction_to_topple.empty()) {
         print_row("",
                   "friction coefficient to topple: " + friction_to_topple_text(answer, decimals));
     }
     if (answer.by_restitution.size() > 1) {
-        fmt::print("\n{:>8}{:>9}   topples at a peak ground acceleration of\n", "r/r_max", "r");
+        fmt::print("\n{:>8}{:>9}   {}\n", "r/r_max", "r",
+                   scene.worded("topples at a peak ground acceleration of"));
     }
     for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
         const RestitutionAnswer& other = answer.by_restitution[i];
         fmt::print("{:>8.2f}{:>9.4f}   {}\n", other.share, other.ratio,
-                   other.ranges.text(other.ranges.decimals(answer.pga), 6));
+                   other.ranges.text(other.ranges.decimals(answer.pga)));
     }
-    if (is_recorded) {
-        const double undecided = std::ranges::max(
-            answer.by_restitution | std::views::transform([](const RestitutionAnswer& each) {
-                return each.ranges.undecided_share();
-            }));
+}
+
+void print_answer(const std::vector<DirectedAnswer>& all, const ToppleOptions& options)
+{
+    print_question(all, options);
+    std::string_view name = "verdict";
+    for (const std::string& sentence : verdicts_of(all, options)) {
+        print_row(name, sentence);
+        name = "";
+    }
+    for (const auto& [job, history, answer] : all) {
+        if (all.size() > 1) {
+            fmt::print("\n");
+            print_row("direction", fmt::format("{} degrees", answer.direction));
+        }
+        if (answer.verdict) {
+            print_row("peak tilt", peak_text(answer.peak, slenderness_of_only_block(job)));
+        }
+        if (answer.friction) {
+            print_row("friction", job.problem.scene.worded(friction_text(*answer.friction)));
+        }
+        print_ranges(job.problem.scene, answer);
+    }
+    if (all.front().job.problem.scene.is_recorded()) {
+        double undecided = 0;
+        for (const auto& [job, history, answer] : all) {
+            undecided = std::max(undecided, undecided_share(answer));
+        }
         fmt::print("\nUnder a record, ranges narrower than the steps of {:.1g} % may be missed. {} "
                    "of the searched accelerations {} undecided.\n",
                    100 * toppling_step,
@@ -363,9 +328,26 @@ std::string json_of(const std::vector<VerdictRange>& ranges)
     return fmt::format("[{}]", fmt::join(list, ", "));
 }
 
-std::string json_of(const RestitutionAnswer& answer)
+/// The toppling ranges as in the text, not rounded.
+std::string json_of_intervals(const VerdictRanges& ranges)
+{
+    const auto list = mapped(
+        ranges.intervals(Verdict::topples, VerdictRanges::most_shown),
+        [&](const VerdictInterval& interval) {
+            const bool may_go_on = interval.last == ranges.end_of_search();
+            return fmt::format("{{\"first\": {}, \"last\": {}, \"share\": {}}}", interval.first,
+                               may_go_on ? "null" : json_of(interval.last), interval.share);
+        });
+    return fmt::format("[{}]", fmt::join(list, ", "));
+}
+
+/// pga: the asked acceleration, if any.
+std::string json_of(const RestitutionAnswer& answer, const std::optional<double>& pga)
 {
     const VerdictRanges& ranges = answer.ranges;
+    const auto if_found = [](const std::optional<double>& found) {
+        return found ? json_of(*found) : "null";
+    };
     const double end = ranges.end_of_search();
     auto toppling = ranges.with(Verdict::topples);
     if (!toppling.empty() && toppling.back().last == end) {
@@ -375,12 +357,17 @@ std::string json_of(const RestitutionAnswer& answer)
         ranges.coarse ? fmt::format("{{\"first\": {}, \"last\": {}, \"step\": {}}}",
                                     ranges.coarse->first, ranges.coarse->last, ranges.coarse->step)
                       : "null";
-    return fmt::format(
-        "\"restitution\": {}, \"restitution_of_maximum\": {}, "
-        "\"toppling_pga\": {}, \"safe_pga\": {}, \"undecided_pga\": {}, "
-        "\"undecided_share\": {}, \"end_of_search\": {}, \"coarse_search\": {}",
-        answer.ratio, json_of(answer.share), json_of(toppling), json_of(ranges.with(Verdict::safe)),
-        json_of(ranges.with(Verdict::undecided)), ranges.undecided_share(), end, coarse);
+    return fmt::format("\"restitution\": {}, \"restitution_of_maximum\": {}, "
+                       "\"toppling_pga_below\": {}, \"toppling_pga_above\": {}, "
+                       "\"toppling_pga\": {}, \"safe_pga\": {}, \"undecided_pga\": {}, "
+                       "\"toppling_intervals\": {}, \"undecided_share\": {}, \"end_of_search\": "
+                       "{}, \"coarse_search\": {}",
+                       answer.ratio, json_of(answer.share),
+                       if_found(pga ? ranges.nearest_below(Verdict::topples, *pga) : std::nullopt),
+                       if_found(pga ? ranges.nearest_above(Verdict::topples, *pga) : std::nullopt),
+                       json_of(toppling), json_of(ranges.with(Verdict::safe)),
+                       json_of(ranges.with(Verdict::undecided)), json_of_intervals(ranges),
+                       ranges.undecided_share(), end, coarse);
 }
 
 std::string json_of_motion(const Job& job, const ToppleOptions& options)
@@ -399,71 +386,95 @@ std::string json_of_motion(const Job& job, const ToppleOptions& options)
                        motion.is_uncorrected);
 }
 
-void print_json(const Job& job, const ToppleOptions& options, const ToppleAnswer& answer)
+using JsonMembers = std::vector<std::string>;
+
+void add(JsonMembers& members, std::string_view name, const auto& value)
 {
+    members.push_back(fmt::format("\"{}\": {}", name, value));
+}
+
+/// What depends on the direction. verdict: the sentence; empty if no strength is asked for.
+JsonMembers json_members_of(const DirectedAnswer& directed, const std::string& verdict)
+{
+    const auto& [job, history, answer] = directed;
     const auto alpha = slenderness_of_only_block(job);
-    const auto if_requested = [&](double value) {
-        return answer.verdict ? json_of(value) : "null";
-    };
-    const auto member = [](std::string_view name, const auto& value) {
-        fmt::print("  \"{}\": {},\n", name, value);
-    };
-    std::vector<std::string> warnings = remarks_on_records(job);
-    if (std::string values = implausible_values(job.problem.scene, job.problem.grid);
-        !values.empty()) {
-        warnings.insert(warnings.begin(), std::move(values));
+    const auto pga = answer.verdict ? std::optional(answer.pga) : std::nullopt;
+    const auto if_requested = [&](double value) { return pga ? json_of(value) : "null"; };
+    JsonMembers members;
+    add(members, "direction", answer.direction);
+    add(members, "verdict", pga ? in_quotes(verdict) : "null");
+    add(members, "topples",
+        answer.verdict == Verdict::topples ? "true"
+        : answer.verdict == Verdict::safe  ? "false"
+                                           : "null");
+    add(members, "pga", if_requested(answer.pga));
+    add(members, "peak_of_alpha", if_requested(answer.peak));
+    add(members, "peak_degrees",
+        alpha ? if_requested(in_degrees(answer.peak * *alpha)) : std::string("null"));
+    add(members, "friction", answer.friction ? json_of(*answer.friction) : std::string("null"));
+    add(members, "lifts_off", answer.friction && std::isinf(*answer.friction));
+    const auto friction =
+        mapped(answer.friction_to_topple, [](double each) { return json_of(each); });
+    add(members, "friction_to_topple", fmt::format("[{}]", fmt::join(friction, ", ")));
+    add(members, "lifting_pga", json_of(answer.lifting_pga));
+    members.push_back(json_of(answer.requested(), pga));
+    std::vector<std::string> others;
+    for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
+        others.push_back(fmt::format("\n    {{{}}}", json_of(answer.by_restitution[i], pga)));
     }
-    fmt::print("{{\n");
+    add(members, "by_restitution", fmt::format("[{}]", fmt::join(others, ",")));
+    return members;
+}
+
+/// The block and its motion, whatever the direction.
+JsonMembers json_members_of(const Job& job, const ToppleOptions& options)
+{
+    const Scene& scene = job.problem.scene;
+    const auto number = [&](const char* name) { return extent_of(job, name)->first; };
+    JsonMembers members;
     const auto block = options.block | std::views::transform([](const auto& given) {
                            return fmt::format("\"{}\": {}", given.first, given.second);
                        });
-    member("block", fmt::format("{{{}}}", fmt::join(block, ", ")));
-    member("motion", json_of_motion(job, options));
-    member("direction", options.direction.value_or(0));
-    member("theory", quoted_utf8(std::string(name_of(job.problem.scene.theory))));
-    member("topples", answer.verdict == Verdict::topples ? "true"
-                      : answer.verdict == Verdict::safe  ? "false"
-                                                         : "null");
-    member("pga", if_requested(answer.pga));
-    member("peak_of_alpha", if_requested(answer.peak));
-    member("peak_degrees",
-           alpha ? if_requested(in_degrees(answer.peak * *alpha)) : std::string("null"));
-    member("friction", answer.friction ? json_of(*answer.friction) : std::string("null"));
-    member("lifts_off", answer.friction && std::isinf(*answer.friction) ? "true" : "false");
-    if (alpha) {
-        member("slenderness", *alpha);
-    } else {
-        member("slenderness_plus", extent_of(job, "slenderness_plus")->first);
-        member("slenderness_minus", extent_of(job, "slenderness_minus")->first);
+    add(members, "block", fmt::format("{{{}}}", fmt::join(block, ", ")));
+    add(members, "motion", json_of_motion(job, options));
+    add(members, "motion_of", quoted_utf8(std::string(name_of(scene.motion_of))));
+    add(members, "theory", quoted_utf8(std::string(name_of(scene.theory))));
+    add(members, "gravity", scene.gravity);
+    std::vector<const char*> names{"slenderness", "frequency_parameter"};
+    if (!slenderness_of_only_block(job)) {
+        names = {"slenderness_plus", "slenderness_minus", "frequency_parameter",
+                 "frequency_parameter_minus", "incline"};
     }
-    member("frequency_parameter", extent_of(job, "frequency_parameter")->first);
-    if (!alpha) {
-        member("frequency_parameter_minus", extent_of(job, "frequency_parameter_minus")->first);
+    for (const char* name : names) {
+        add(members, name, number(name));
     }
-    const auto friction = answer.friction_to_topple |
-                          std::views::transform([](double each) { return json_of(each); });
-    member("friction_to_topple", fmt::format("[{}]", fmt::join(friction, ", ")));
-    member("gravity", job.problem.scene.gravity);
-    member("lifting_pga", json_of(answer.lifting_pga));
-    member("pga_max", options.pga_max);
-    member("narrower_ranges_exist", job.problem.scene.is_recorded() ? "true" : "null");
-    member("warnings",
-           fmt::format("[{}]", fmt::join(warnings | std::views::transform(quoted_utf8), ", ")));
-    fmt::print("  {},\n  \"by_restitution\": [", json_of(answer.by_restitution.front()));
-    for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
-        fmt::print("{}\n    {{{}}}", i > 1 ? "," : "", json_of(answer.by_restitution[i]));
+    add(members, "pga_max", options.pga_max);
+    add(members, "narrower_ranges_exist", scene.is_recorded() ? "true" : "null");
+    std::vector<std::string> warnings = remarks_on_records(job);
+    if (std::string values = implausible_values(scene, job.problem.grid); !values.empty()) {
+        warnings.insert(warnings.begin(), std::move(values));
     }
-    fmt::print("\n  ]\n}}\n");
+    add(members, "warnings",
+        fmt::format("[{}]", fmt::join(warnings | std::views::transform(quoted_utf8), ", ")));
+    return members;
 }
 
-void write_history(const Job& job, const std::string& path)
+/// The answer for the worst direction, and the answers for all.
+void print_json(const std::vector<DirectedAnswer>& all, const ToppleOptions& options)
 {
-    const SoleWriter sole_writer(path);
-    {
-        const GuardedReading guarded(path, sole_writer.lock());
-        expect_room_for(path, FileKind::history);
+    const std::vector<std::string> verdicts = verdicts_of(all, options);
+    std::vector<std::string> directions;
+    JsonMembers members = json_members_of(all.front().job, options);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const JsonMembers its_members =
+            json_members_of(all[i], verdicts.empty() ? "" : verdicts[i]);
+        directions.push_back(fmt::format("\n  {{{}}}", fmt::join(its_members, ", ")));
+        if (i == 0) {
+            members.insert(members.end(), its_members.begin(), its_members.end());
+        }
     }
-    write_history_file(path, job, history_of_only_point(job));
+    add(members, "by_direction", fmt::format("[{}]", fmt::join(directions, ",")));
+    fmt::print("{{\n  {}\n}}\n", fmt::join(members, ",\n  "));
 }
 
 } // namespace
@@ -472,7 +483,8 @@ int topple(const ToppleOptions& options)
 {
     widest_kernel(); // throws if this processor supports none
     expect_consistent(options);
-    const Job job = read_job_text(job_text(options), command_line, options.overrides);
+    std::vector<Job> jobs = jobs_of(options);
+    const Job& job = jobs.front();
     if (job.motions.size() > 1) {
         throw Error(exit_code::usage,
                     "--record matches {} files, but topple answers for one motion. "
@@ -482,14 +494,23 @@ int topple(const ToppleOptions& options)
     if (!options.json) {
         warn_of_probable_mistakes(job);
     }
+    std::optional<SoleWriter> sole_writer;
     if (!options.history.empty()) {
-        write_history(job, options.history);
+        sole_writer.emplace(options.history);
+        const GuardedReading guarded(options.history, sole_writer->lock());
+        expect_room_for(options.history, FileKind::history);
     }
-    const ToppleAnswer answer = answer_of(job, options);
-    (options.json ? print_json : print_answer)(job, options, answer);
+    const std::vector<DirectedAnswer> answers = answers_for(std::move(jobs), options);
+    if (!options.history.empty()) {
+        write_history_file(options.history, answers.front().job, *answers.front().history);
+    }
+    (options.json ? print_json : print_answer)(answers, options);
     if (!options.history.empty() && !options.json) {
-        fmt::print("\n{0}: written; draw it with tools/plot_history {0} --units physical\n",
-                   options.history);
+        fmt::print("\n{0}: written{1}; draw it with tools/plot_history {0} --units physical\n",
+                   options.history,
+                   answers.size() > 1 ? fmt::format(", the motion in direction {}",
+                                                    answers.front().answer.direction)
+                                      : "");
     }
     return exit_code::complete;
 }

@@ -1,8 +1,10 @@
 #include "verdict_ranges.hpp"
 
 #include "overturn/problem/axis.hpp"
+#include "overturn/text/mapped.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,45 +34,58 @@ FlipSearch search_in(const Scene& scene, const DropRequested& drop_requested)
     return search;
 }
 
-/// Rounded outwards; ranges that touch or overlap then are one.
-std::vector<VerdictRange> rounded(const std::vector<VerdictRange>& ranges, int decimals)
+/// One interval of both; each may be a single acceleration.
+VerdictInterval joined(const VerdictInterval& one, const VerdictInterval& next)
 {
-    std::vector<VerdictRange> all;
-    for (VerdictRange range : ranges) {
-        range.first = rounded_down(range.first, decimals);
-        range.last = rounded_up(range.last, decimals);
-        if (!all.empty() && range.first <= all.back().last) {
-            all.back().last = range.last;
+    const auto width = [](const VerdictInterval& each) { return each.last - each.first; };
+    VerdictInterval both{one.first, next.last};
+    if (width(both) > 0) {
+        both.share = (one.share * width(one) + next.share * width(next)) / width(both);
+    }
+    return both;
+}
+
+/// Rounded outwards; intervals that touch or overlap then are one.
+std::vector<VerdictInterval> rounded(const std::vector<VerdictInterval>& intervals, int decimals)
+{
+    std::vector<VerdictInterval> all;
+    for (VerdictInterval interval : intervals) {
+        interval.first = rounded_down(interval.first, decimals);
+        interval.last = rounded_up(interval.last, decimals);
+        if (!all.empty() && interval.first <= all.back().last) {
+            all.back() = joined(all.back(), interval);
         } else {
-            all.push_back(range);
+            all.push_back(interval);
         }
     }
     return all;
 }
 
-/// "1.1110 to 1.6440 g" for each range, and "above 2.1300 g" if the last one reaches the end of the
-/// search; at most this many, including the last.
-std::string list_of(const std::vector<VerdictRange>& ranges, int decimals, std::size_t most,
+/// "above 2.1300 g" if the interval reaches the end of the search, otherwise "1.1110 to 1.6440 g";
+/// "34 % of 1.1110 to 1.6440 g" if only a part of it has the verdict.
+std::string text_of(const VerdictInterval& interval, int decimals, double end_of_search)
+{
+    constexpr double whole = 0.995; // rounded to per cent
+    const auto& [first, last, share] = interval;
+    const bool is_whole = share >= whole;
+    if (is_whole && last >= end_of_search) {
+        return fmt::format("above {:.{}f} g", first, decimals);
+    }
+    if (first == last) {
+        return fmt::format("{:.{}f} g", first, decimals);
+    }
+    return fmt::format("{}{:.{}f} to {:.{}f} g",
+                       is_whole ? "" : fmt::format("{:.0f} % of ", std::max(100 * share, 1.0)),
+                       first, decimals, last, decimals);
+}
+
+std::string list_of(const std::vector<VerdictInterval>& intervals, int decimals,
                     double end_of_search)
 {
-    std::string list;
-    const std::vector<VerdictRange> shown = rounded(ranges, decimals);
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-        const bool is_last = i + 1 == shown.size();
-        if (i + 1 >= most && !is_last) {
-            continue;
-        }
-        list += list.empty() ? "" : ", ";
-        if (is_last && i >= most) {
-            list += fmt::format("{} more (see --json), ", shown.size() - most);
-        }
-        const auto& [first, last, verdict] = shown[i];
-        list += last >= end_of_search ? fmt::format("above {:.{}f} g", first, decimals)
-                : first == last
-                    ? fmt::format("{:.{}f} g", first, decimals)
-                    : fmt::format("{:.{}f} to {:.{}f} g", first, decimals, last, decimals);
-    }
-    return list;
+    const auto texts = mapped(rounded(intervals, decimals), [&](const VerdictInterval& each) {
+        return text_of(each, decimals, end_of_search);
+    });
+    return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 } // namespace
@@ -114,6 +129,31 @@ std::vector<double> scanned_accelerations(const Scene& scene, double first, doub
     return all;
 }
 
+namespace {
+
+/// Also the included acceleration, and under a record those next to it, in small steps: the nearest
+/// toppling range may be narrower than the steps of the scan.
+std::vector<double> with_neighbours(std::vector<double> scan, double included, const Scene& scene)
+{
+    constexpr int neighbours = 20; // on each side
+    constexpr double step = 0.001; // over the acceleration
+    const int most = scene.is_recorded() ? neighbours : 0;
+    const double first = scan.front();
+    const double last = scan.back();
+    for (int i = -most; i <= most; ++i) {
+        const double acceleration = included * (1 + i * step);
+        if (first < acceleration && acceleration < last) {
+            scan.push_back(acceleration);
+        }
+    }
+    std::ranges::sort(scan);
+    const auto [begin, end] = std::ranges::unique(scan);
+    scan.erase(begin, end);
+    return scan;
+}
+
+} // namespace
+
 VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, double lifting,
                              double end, double included, const DropRequested& drop_requested)
 {
@@ -131,11 +171,8 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
         ranges.all.push_back({0, end, Verdict::safe});
         return ranges;
     }
-    std::vector<double> accelerations = scanned_accelerations(scene, lifting, end);
-    const auto place = std::lower_bound(accelerations.begin(), accelerations.end(), included);
-    if (lifting < included && included < end && *place != included) {
-        accelerations.insert(place, included);
-    }
+    const std::vector<double> accelerations =
+        with_neighbours(scanned_accelerations(scene, lifting, end), included, scene);
     const Boundary boundary =
         boundary_on(scene, line, accelerations, widest_kernel(), search_in(scene, drop_requested));
     ranges.coarse = boundary.coarse;
@@ -178,11 +215,63 @@ double VerdictRanges::undecided_share() const
     return undecided > 0 ? undecided / (end_of_search() - lifting) : 0;
 }
 
+Verdict VerdictRanges::verdict_at(double pga) const
+{
+    for (const Verdict verdict : {Verdict::topples, Verdict::undecided}) {
+        const bool has_it = std::ranges::any_of(with(verdict), [&](const VerdictRange& range) {
+            return range.first <= pga && pga <= range.last;
+        });
+        if (has_it) {
+            return verdict;
+        }
+    }
+    return Verdict::safe;
+}
+
+std::optional<double> VerdictRanges::nearest_below(Verdict verdict, double pga) const
+{
+    std::optional<double> nearest;
+    for (const VerdictRange& range : with(verdict)) {
+        if (range.first < pga) {
+            nearest = std::min(range.last, pga);
+        }
+    }
+    return nearest;
+}
+
+std::optional<double> VerdictRanges::nearest_above(Verdict verdict, double pga) const
+{
+    for (const VerdictRange& range : with(verdict)) {
+        if (range.last > pga) {
+            return std::max(range.first, pga);
+        }
+    }
+    return std::nullopt;
+}
+
+std::vector<VerdictInterval> VerdictRanges::intervals(Verdict verdict, std::size_t most) const
+{
+    std::vector<VerdictInterval> shown = mapped(with(verdict), [](const VerdictRange& range) {
+        return VerdictInterval{range.first, range.last};
+    });
+    const bool reaches_end = !shown.empty() && shown.back().last == end_of_search();
+    const auto gap_after = [&](std::size_t i) { return shown[i + 1].first / shown[i].last; };
+    while (shown.size() > most) {
+        std::size_t closest = 0;
+        for (std::size_t i = 1; i + 1 + std::size_t(reaches_end) < shown.size(); ++i) {
+            closest = gap_after(i) < gap_after(closest) ? i : closest;
+        }
+        shown[closest] = joined(shown[closest], shown[closest + 1]);
+        shown.erase(shown.begin() + std::ptrdiff_t(closest) + 1);
+    }
+    return shown;
+}
+
 std::string VerdictRanges::text(int decimals, std::size_t most) const
 {
     const double end = end_of_search();
-    std::string text = list_of(with(Verdict::topples), decimals, most, end);
-    const std::string undecided = list_of(with(Verdict::undecided), decimals, most, end);
+    std::string text = list_of(intervals(Verdict::topples, most), decimals, end);
+    const std::string undecided = list_of(intervals(Verdict::undecided, most), decimals, end);
     text = text.empty() ? "none" : text;
     text += undecided.empty() ? "" : "; undecided: " + undecided;
     text += fmt::format(", searched up to {} g", rounded_down(end, 6));
@@ -196,17 +285,24 @@ std::string VerdictRanges::text(int decimals, std::size_t most) const
 
 int VerdictRanges::decimals(double pga) const
 {
-    constexpr int most_for_ends = 7; // hundreds of ranges under a slow pulse would need more
+    constexpr int most_for_ends = 7; // narrow ranges would need more
+    std::vector<double> ends;
+    for (const Verdict verdict : {Verdict::topples, Verdict::undecided}) {
+        for (const VerdictInterval& interval : intervals(verdict, most_shown)) {
+            ends.insert(ends.end(), {interval.first, interval.last});
+        }
+    }
+    std::ranges::sort(ends);
     int decimals = 4;
     const auto look_the_same = [&](double a, double b) {
         return a != b && rounded_down(a, decimals) == rounded_down(b, decimals);
     };
-    const auto is_unclear = [&](const VerdictRange& range) {
-        return (decimals < most_for_ends && look_the_same(range.first, range.last)) ||
-               look_the_same(range.last, pga);
+    const auto are_unclear = [&] {
+        return std::ranges::any_of(ends, [&](double end) { return look_the_same(end, pga); }) ||
+               (decimals < most_for_ends &&
+                std::ranges::adjacent_find(ends, look_the_same) != ends.end());
     };
-    while (decimals < std::numeric_limits<double>::digits10 &&
-           std::any_of(all.begin(), all.end(), is_unclear)) {
+    while (decimals < std::numeric_limits<double>::digits10 && are_unclear()) {
         ++decimals;
     }
     return decimals;

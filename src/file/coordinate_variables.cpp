@@ -66,7 +66,11 @@ private:
     void add(std::string_view name, const Dimensions& along, std::string_view long_name,
              std::string_view units, Compute values)
     {
-        all_.push_back({{std::string(name), along, {}, std::string(long_name), std::string(units)},
+        all_.push_back({{std::string(name),
+                         along,
+                         {},
+                         job_.problem.scene.worded(long_name),
+                         std::string(units)},
                         std::move(values)});
     }
 
@@ -97,6 +101,12 @@ private:
             return letters;
         });
         all_.back().variable.values = std::string();
+    }
+
+    bool is_known(std::string_view name) const
+    {
+        return std::ranges::any_of(
+            all_, [&](const CoordinateVariable& each) { return each.variable.name == name; });
     }
 
     void add_column(const Column& column, const Dimensions& along)
@@ -143,9 +153,7 @@ private:
     /// A boundary has flips instead of strengths, and nothing that follows from these.
     void add_derived(std::string_view name)
     {
-        const bool is_column = std::ranges::any_of(
-            all_, [&](const CoordinateVariable& each) { return each.variable.name == name; });
-        if (is_column || grid_.find(name) != nullptr || !derived_->has(name)) {
+        if (is_known(name) || grid_.find(name) != nullptr || !derived_->has(name)) {
             return;
         }
         Dimensions along;
@@ -174,13 +182,27 @@ private:
             add(measure.name, along, measure.long_name, measure.units, [motions, &measure] {
                 return mapped(motions, [&](auto* each) { return each->measures.*measure.value; });
             });
-            std::string& comment = all_.back().variable.comment;
-            comment = measure.comment;
-            if (job_.problem.scene.has_two_components()) {
-                comment += comment.empty() ? "" : "; ";
-                comment += "of the first horizontal component";
-            }
+            add_comment_of_measure(measure.comment);
         }
+        const bool all_know_the_ground = std::ranges::all_of(
+            motions, [](const Motion* motion) { return motion->ground_pga.has_value(); });
+        if (job_.problem.scene.motion_of == MotionOf::floor && all_know_the_ground &&
+            !is_known("ground_pga")) {
+            add("ground_pga", along, "", "1", [motions] {
+                return mapped(motions, [](auto* each) { return *each->ground_pga; });
+            });
+            all_.back().variable.long_name = "peak acceleration of the ground, over g";
+            add_comment_of_measure("not scaled; of the motion that caused that of the floor");
+        }
+    }
+
+    void add_comment_of_measure(std::string comment)
+    {
+        if (job_.problem.scene.has_two_components()) {
+            comment += comment.empty() ? "" : "; ";
+            comment += "of the first horizontal component";
+        }
+        all_.back().variable.comment = comment;
     }
 
     const Job& job_;

@@ -24,6 +24,9 @@ inline std::string in_run_group(const std::string& name)
     return "run/" + name;
 }
 
+/// Global attribute: "floor" if the motion is that of a floor; otherwise it is absent.
+inline constexpr char motion_of[] = "motion_of";
+
 // In the group `run`.
 inline constexpr char run_token[] = "run_token";
 inline constexpr char checksum[] = "checksum";

@@ -64,6 +64,9 @@ void write_origin(hid_t file, const Job& job, FileKind kind)
             }
         }
     }
+    if (scene.motion_of != Scene().motion_of) {
+        write_attribute(file, layout::motion_of, name_of(scene.motion_of));
+    }
     write_attribute(file, "theory", name_of(scene.theory));
     if (Coordinates(scene, job.problem.grid).has("frequency_parameter")) {
         write_attribute(file, "gravity", scene.gravity);
@@ -82,7 +85,7 @@ void add_job(hid_t file, const Job& job)
         records += record_text(motion);
     }
     add_text(file, in_run_group("records"), records,
-             "files of the recorded ground motions, with their headers");
+             job.problem.scene.worded("files of the recorded ground motions, with their headers"));
 }
 
 /// Creates a dataset that is not a dimension yet and has none.
@@ -163,7 +166,8 @@ void add_variable(hid_t file, const Variable& variable)
     }
 }
 
-void add_text(hid_t file, const std::string& name, const std::string& text, const char* long_name)
+void add_text(hid_t file, const std::string& name, const std::string& text,
+              const std::string& long_name)
 {
     if (!text.empty()) {
         add_variable(file,

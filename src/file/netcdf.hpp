@@ -50,7 +50,8 @@ void add_variable(hid_t file, const Variable& variable);
 
 /// Stores a text as a variable, because a compact attribute is limited to 64 KiB. An empty text is
 /// left out.
-void add_text(hid_t file, const std::string& name, const std::string& text, const char* long_name);
+void add_text(hid_t file, const std::string& name, const std::string& text,
+              const std::string& long_name);
 
 /// Adds a group. The names of its variables and dimensions begin with its name and a slash.
 void add_group(hid_t file, const char* name);

@@ -83,7 +83,7 @@ void write_field_attributes(hid_t dataset, Field field, const Scene& scene,
                             const std::string& coordinates)
 {
     const FieldTraits& traits = traits_of(field);
-    write_attribute(dataset, "long_name", traits.long_name);
+    write_attribute(dataset, "long_name", scene.worded(traits.long_name));
     write_attribute(dataset, "units", traits.units);
     // Readers interpret NaN as missing, so it can be declared; a fill value declared on an integer
     // field would make them convert codes to floats.
@@ -96,7 +96,7 @@ void write_field_attributes(hid_t dataset, Field field, const Scene& scene,
         write_attribute(dataset, "finest_step", search.finest_step);
     }
     write_flags(dataset, field);
-    write_attribute(dataset, "comment", traits.comment);
+    write_attribute(dataset, "comment", scene.worded(traits.comment));
     write_attribute(dataset, "coordinates", coordinates);
 }
 

@@ -125,6 +125,9 @@ FileOrigin read_origin(hid_t file, const std::string& path)
                     origin.format > layout::newest_format ? "a newer" : "an older");
     }
     origin.title = hdf5::read_text_attribute(file, "title");
+    origin.motion_of =
+        enumerator_named<MotionOf>(hdf5::read_text_attribute(file, layout::motion_of))
+            .value_or(origin.motion_of);
     origin.program_version = hdf5::read_text_attribute(file, "program_version");
     origin.program_commit = hdf5::read_text_attribute(file, "program_commit");
     origin.resolved_job = read_text(file, layout::job_resolved, origin.bytes);
@@ -353,9 +356,21 @@ std::string_view record_named_in(std::string_view line)
                : std::string_view();
 }
 
-/// Describes the first line in which two different texts differ.
+/// The table of blocks, if a resolved job names it before a place in the lines about it.
+std::string_view table_named_before(std::string_view job, std::size_t place)
+{
+    constexpr std::string_view before = "[blocks]\ntable = ";
+    const std::size_t section = job.substr(0, place).rfind("\n[");
+    const std::string_view lines = section == job.npos ? job : job.substr(section + 1);
+    return lines.starts_with(before)
+               ? lines.substr(before.size(), lines.find('\n', before.size()) - before.size())
+               : std::string_view();
+}
+
+/// Describes the first line in which two different resolved jobs differ, and what to do.
 std::string first_difference(std::string_view stored, std::string_view given)
 {
+    constexpr std::string_view restore = "Restore it, or choose another name with -o.";
     const auto differ = std::ranges::mismatch(stored, given);
     const auto place = std::size_t(differ.in1 - stored.begin());
     const std::string_view same = given.substr(0, place);
@@ -364,14 +379,29 @@ std::string first_difference(std::string_view stored, std::string_view given)
         return text.substr(begin, text.find('\n', begin) - begin);
     };
     const std::string_view record = record_named_in(line_of(given));
-    if (!record.empty() && record == record_named_in(line_of(stored))) {
+    const std::string_view former = record_named_in(line_of(stored));
+    if (!record.empty() && record == former) {
         return fmt::format("the record {} has changed since then, or is read with other keys "
-                           "(component, second_component, vertical, time_step, units, gravity). ",
-                           record);
+                           "(component, second_component, vertical, time_step, units, gravity). {}",
+                           record, restore);
     }
-    return fmt::format("line {} of its resolved job is\n  {}\nbut in this job it is\n  {}\n",
-                       1 + std::ranges::count(same, '\n'), line_around(stored, begin, place),
-                       line_around(given, begin, place));
+    if (!record.empty() || !former.empty()) {
+        const auto name_of = [](std::string_view name) { return name.empty() ? "none" : name; };
+        return fmt::format("its records were others; the first that differs was {}, and is {} in "
+                           "this job. A pattern may match other files than then. Restore them, or "
+                           "choose another name with -o.",
+                           name_of(former), name_of(record));
+    }
+    const std::string_view table = table_named_before(given, place);
+    if (!table.empty() && table == table_named_before(stored, place)) {
+        return fmt::format("the table {} has changed since then. {}", table, restore);
+    }
+    return fmt::format(
+        "line {} of its resolved job is\n  {}\nbut in this job it is\n  {}\nUndo the "
+        "change of the job file, repeat the --set arguments of the first run, or "
+        "choose another name with -o.",
+        1 + std::ranges::count(same, '\n'), line_around(stored, begin, place),
+        line_around(given, begin, place));
 }
 
 /// Throws Error unless the file is the result of this job, by this version of the program.
@@ -393,9 +423,7 @@ void expect_result_of(const Job& job, const StoredResult& stored)
                            origin.format));
     }
     if (origin.resolved_job != job.resolved) {
-        refuse(fmt::format("belongs to another job: {}Repeat the --set arguments of the first run, "
-                           "or choose another name with -o.",
-                           first_difference(origin.resolved_job, job.resolved)));
+        refuse("belongs to another job: " + first_difference(origin.resolved_job, job.resolved));
     }
     if (origin.program_version != program_version() || origin.program_commit != program_commit()) {
         refuse(fmt::format(

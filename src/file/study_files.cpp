@@ -38,19 +38,20 @@ constexpr SampleQuantity quantities[] = {
 };
 
 /// `when` is appended to the long name of the quantity.
-void add_quantity(hid_t file, const std::string& name, const SampleQuantity& quantity,
-                  const std::vector<HistorySample>& samples, const std::string& when = "")
+void add_quantity(hid_t file, const Scene& scene, const std::string& name,
+                  const SampleQuantity& quantity, const std::vector<HistorySample>& samples,
+                  const std::string& when = "")
 {
     const bool is_of_events = name.starts_with("events/");
     add_variable(file, {name,
                         {{is_of_events ? "events/event" : "time", std::int64_t(samples.size())}},
                         mapped(samples, quantity.value),
-                        quantity.long_name + when,
+                        scene.worded(quantity.long_name) + when,
                         quantity.units,
-                        quantity.comment});
+                        scene.worded(quantity.comment)});
 }
 
-void add_events(hid_t file, const std::vector<HistoryEvent>& events)
+void add_events(hid_t file, const Scene& scene, const std::vector<HistoryEvent>& events)
 {
     const std::vector<HistorySample> before = mapped(events, &HistoryEvent::before);
     const std::vector<HistorySample> after = mapped(events, &HistoryEvent::after);
@@ -58,7 +59,7 @@ void add_events(hid_t file, const std::vector<HistoryEvent>& events)
     const StoredDimension dimension{"events/event", std::int64_t(events.size())};
     add_group(file, "events"); // of a different length from the samples
     add_bare_dimension(file, dimension);
-    add_quantity(file, "events/time", time_of_sample, after);
+    add_quantity(file, scene, "events/time", time_of_sample, after);
     add_variable(file, {.name = "events/kind",
                         .dimensions = {dimension},
                         .values = mapped(events, code_of),
@@ -66,8 +67,8 @@ void add_events(hid_t file, const std::vector<HistoryEvent>& events)
                         .code_names = event_names});
     for (const SampleQuantity& quantity : quantities) {
         const std::string name = std::string("events/") + quantity.name;
-        add_quantity(file, name + "_before", quantity, before, ", before the event");
-        add_quantity(file, name + "_after", quantity, after, ", after the event");
+        add_quantity(file, scene, name + "_before", quantity, before, ", before the event");
+        add_quantity(file, scene, name + "_after", quantity, after, ", after the event");
     }
 }
 
@@ -157,7 +158,8 @@ void add_rows(hid_t file, const std::vector<AccuracyRow>& rows)
     add("bound_over_error", "median of bound over error", "1", &Row::bound_over_error);
 }
 
-void add_study(hid_t file, const AccuracySample& sample, const std::vector<AccuracyRow>& rows)
+void add_study(hid_t file, const Scene& scene, const AccuracySample& sample,
+               const std::vector<AccuracyRow>& rows)
 {
     write_attribute(file, "points", sample.grid.points());
     write_attribute(file, "points_settled", sample.settled);
@@ -169,7 +171,7 @@ void add_study(hid_t file, const AccuracySample& sample, const std::vector<Accur
     add_variable(file, {.name = "region",
                         .dimensions = {{"region", std::int64_t(regions.size())}},
                         .values = regions,
-                        .long_name = "region at the end of the ground motion",
+                        .long_name = scene.worded("region at the end of the ground motion"),
                         .code_names = region_names});
     add_list(file, "distance", "distance", distance_limits, "upper limit of |margin| in the class");
     add_rows(file, rows);
@@ -235,11 +237,12 @@ void write_history_file(const std::string& path, const Job& job, const History& 
     expect_room_for(path, FileKind::history);
     make_file(path, job, FileKind::history, [&](hid_t file, const std::string&) {
         add_outcome(file, job, history);
-        add_quantity(file, time_of_sample.name, time_of_sample, history.samples);
+        const Scene& scene = job.problem.scene;
+        add_quantity(file, scene, time_of_sample.name, time_of_sample, history.samples);
         for (const SampleQuantity& quantity : quantities) {
-            add_quantity(file, quantity.name, quantity, history.samples);
+            add_quantity(file, scene, quantity.name, quantity, history.samples);
         }
-        add_events(file, history.events);
+        add_events(file, scene, history.events);
     });
 }
 
@@ -247,8 +250,9 @@ void write_accuracy_file(const std::string& path, const Job& job, const Accuracy
                          const std::vector<AccuracyRow>& rows)
 {
     expect_room_for(path, FileKind::accuracy);
-    make_file(path, job, FileKind::accuracy,
-              [&](hid_t file, const std::string&) { add_study(file, sample, rows); });
+    make_file(path, job, FileKind::accuracy, [&](hid_t file, const std::string&) {
+        add_study(file, job.problem.scene, sample, rows);
+    });
 }
 
 } // namespace overturn

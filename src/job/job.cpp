@@ -195,10 +195,12 @@ Job read_job_text(std::string text, const std::string& name,
     const std::string folder = std::filesystem::path(name).parent_path().string();
     Problem& problem = job.problem;
     problem.scene = read_scene(entry);
-    if (const Entry scene = *find(entry, "scene"); find(scene, "record")) {
+    const Entry scene = *find(entry, "scene");
+    if (find(scene, "record")) {
         job.motions = read_motions(scene, folder, problem.scene.gravity);
         problem.scene.records = mapped(job.motions, &Motion::record);
     }
+    problem.scene.motion_of = read_motion_of(scene, job.motions);
     problem.numerics = read_numerics(entry, problem.scene.is_recorded());
     problem.fields = read_fields(entry);
     read_points(entry, folder, job);

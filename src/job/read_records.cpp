@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <set>
 
@@ -74,7 +75,51 @@ std::string checksum_of(const Accelerogram& record)
     return fmt::format("{:016x}", hash);
 }
 
-/// The files that an entry of scene.record names, which may be a pattern, in byte order.
+/// The text as a pattern that matches only itself.
+std::string literally(std::string_view text)
+{
+    std::string pattern;
+    for (const char letter : text) {
+        pattern += std::string_view("*?[\\").find(letter) != std::string_view::npos ? "\\" : "";
+        pattern += letter;
+    }
+    return pattern;
+}
+
+/// The text with its first folders literally, as long as they exist under these names in the
+/// folder: `d \[1]/*.AT2` of `d [1]/*.AT2`.
+std::string with_literal_folders(std::string_view text, const fs::path& folder)
+{
+    std::size_t literal = 0; // length of the folders that exist, with a slash behind each
+    std::error_code not_found;
+    for (std::size_t end = text.find('/'); end != text.npos; end = text.find('/', literal)) {
+        if (!fs::is_directory(folder / text.substr(0, end + 1), not_found)) {
+            break;
+        }
+        literal = end + 1;
+    }
+    return literally(text.substr(0, literal)) + std::string(text.substr(literal));
+}
+
+/// In any order; relative to the folder, unless the pattern is absolute.
+std::vector<std::string> files_that_match(const std::string& pattern, const fs::path& folder)
+{
+    const bool is_absolute = fs::path(pattern).is_absolute();
+    const std::string absolute =
+        is_absolute ? pattern : literally((folder / "").string()) + pattern;
+    glob_t found{};
+    std::vector<std::string> files;
+    glob(absolute.c_str(), GLOB_NOSORT, nullptr, &found);
+    for (std::size_t i = 0; i < found.gl_pathc; ++i) {
+        const fs::path path(found.gl_pathv[i]);
+        files.push_back((is_absolute ? path : path.lexically_relative(folder)).string());
+    }
+    globfree(&found);
+    return files;
+}
+
+/// The files that an entry of scene.record names, which may be a pattern, in byte order. What
+/// exists as it is written is not a pattern.
 std::vector<std::string> files_of(const Entry& entry, const fs::path& folder)
 {
     const std::string text = string_of(entry);
@@ -85,22 +130,15 @@ std::vector<std::string> files_of(const Entry& entry, const fs::path& folder)
     if (text.find_first_of("*?[") == text.npos || fs::exists(folder / text, not_found)) {
         return {text};
     }
-    std::string pattern; // the text, but not the folder of the job
-    const bool is_absolute = fs::path(text).is_absolute();
-    for (const char letter : is_absolute ? "" : (folder / "").string()) {
-        pattern += std::string_view("*?[\\").find(letter) != std::string_view::npos ? "\\" : "";
-        pattern += letter;
-    }
-    glob_t found{};
-    std::vector<std::string> files;
-    glob((pattern + text).c_str(), GLOB_NOSORT, nullptr, &found);
-    for (std::size_t i = 0; i < found.gl_pathc; ++i) {
-        const fs::path path(found.gl_pathv[i]);
-        files.push_back((is_absolute ? path : path.lexically_relative(folder)).string());
-    }
-    globfree(&found);
+    std::vector<std::string> files = files_that_match(with_literal_folders(text, folder), folder);
     if (files.empty()) {
-        refuse(entry, " = {} matches no file. It is relative to the job file.", in_quotes(text));
+        files = files_that_match(text, folder);
+    }
+    if (files.empty()) {
+        refuse(entry,
+               " = {} matches no file. It is relative to the job file, and a pattern: write [*], "
+               "[?] and [[] for *, ? and [ themselves.",
+               in_quotes(text));
     }
     std::ranges::sort(files);
     const auto other = std::ranges::find_if_not(files, is_utf8);
@@ -188,6 +226,18 @@ remarks_on(std::initializer_list<std::reference_wrapper<const RecordComponent>> 
     return remarks;
 }
 
+/// What the first of the components that state it says.
+std::optional<MotionOf>
+stated_motion_of(std::initializer_list<std::reference_wrapper<const RecordComponent>> components)
+{
+    for (const RecordComponent& component : components) {
+        if (component.motion_of) {
+            return component.motion_of;
+        }
+    }
+    return std::nullopt;
+}
+
 /// The motion, whose name is that of the file and the component.
 Motion read_motion(std::size_t number, const GivenRecord& given, const Reading& reading)
 {
@@ -233,6 +283,8 @@ Motion read_motion(std::size_t number, const GivenRecord& given, const Reading& 
         .remarks = remarks_on({horizontal, second, vertical}),
         .header = mapped(horizontal.header, as_utf8),
         .measures = intensity_measures(record->horizontal(), record->time_step(), reading.gravity),
+        .stated_motion_of = stated_motion_of({horizontal, second, vertical}),
+        .ground_pga = horizontal.ground_pga,
         .checksum = checksum_of(*record),
         .record = record};
     if (!(motion.measures.pga > 0)) {
@@ -315,6 +367,31 @@ std::vector<Motion> read_motions(const Entry& scene, const std::string& folder, 
     }
     shorten_names(motions);
     return motions;
+}
+
+MotionOf read_motion_of(const Entry& scene, const std::vector<Motion>& motions)
+{
+    const auto given = find(scene, "motion_of");
+    const MotionOf otherwise = given ? choice_of<MotionOf>(*given) : MotionOf::ground;
+    std::map<MotionOf, std::string> files;
+    for (const Motion& motion : motions) {
+        const MotionOf of_file = motion.stated_motion_of.value_or(otherwise);
+        if (given && of_file != otherwise) {
+            refuse(*given,
+                   " = \"{}\", but the file {} states motion_of = {}. Remove the key, or correct "
+                   "the file.",
+                   name_of(otherwise), in_quotes(motion.file), name_of(of_file));
+        }
+        files.emplace(of_file, motion.file);
+    }
+    if (files.size() > 1) {
+        refuse(*find(scene, "record"),
+               ": {} is the motion of a floor, but {} does not state that it is one. Give the "
+               "motions of floors and of the ground to different jobs; if all are of floors, give "
+               "motion_of = \"floor\".",
+               in_quotes(files.at(MotionOf::floor)), in_quotes(files.at(MotionOf::ground)));
+    }
+    return files.empty() ? otherwise : files.begin()->first;
 }
 
 } // namespace overturn

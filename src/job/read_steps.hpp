@@ -17,6 +17,9 @@ void apply_override(toml::table& job, const std::string& argument);
 /// Reads scene.record and the keys that belong to it. folder: of the job file; gravity [m/s2].
 std::vector<Motion> read_motions(const Entry& scene, const std::string& folder, double gravity);
 
+/// Whose motion it is: as scene.motion_of says, or the files of the records do.
+MotionOf read_motion_of(const Entry& scene, const std::vector<Motion>& motions);
+
 /// Reads the table of the blocks of a job. file: relative to the folder. Under records, the column
 /// `motion` contains their names, or those of their files; in the result, their numbers, from 1.
 /// Throws Error.

@@ -31,13 +31,14 @@ std::string motion_text(const Motion& motion)
     const IntensityMeasures& measures = motion.measures;
     return fmt::format(
         "{{ file = {}, component = {}, {}vertical = {}, samples = {}, time_step = {}, pga = {}, "
-        "pgv = {}, arias_intensity = {}, significant_duration = {}, checksum = {} }}",
+        "pgv = {}, arias_intensity = {}, significant_duration = {}, {}checksum = {} }}",
         in_quotes(motion.file), in_quotes(motion.component),
         motion.second.empty() ? ""
                               : fmt::format("second_component = {}, ", in_quotes(motion.second)),
         in_quotes(motion.vertical), motion.record->samples(),
         float_text(motion.record->time_step()), float_text(measures.pga), float_text(measures.pgv),
         float_text(measures.arias_intensity), float_text(measures.significant_duration),
+        motion.ground_pga ? fmt::format("ground_pga = {}, ", float_text(*motion.ground_pga)) : "",
         in_quotes(motion.checksum));
 }
 
@@ -52,6 +53,9 @@ std::string scene_text(const Job& job)
                          : fmt::format("record = {}\n", motions.front());
     } else {
         text += fmt::format("pulse = \"{}\"\n", name_of(scene.pulse));
+    }
+    if (scene.motion_of != Scene().motion_of) {
+        text += fmt::format("motion_of = \"{}\"\n", name_of(scene.motion_of));
     }
     text += fmt::format("theory = \"{}\"\n", name_of(scene.theory));
     if (scene.gravity != Scene().gravity ||

@@ -22,7 +22,7 @@ const Keys all_keys[] = {
     {"scene",
      Under::record,
      {"record", "units", "component", "second_component", "vertical", "time_step"}},
-    {"scene", Under::any_motion, {"theory", "gravity"}},
+    {"scene", Under::any_motion, {"theory", "gravity", "motion_of"}},
     {"blocks", Under::any_motion, {"table"}},
     {"numerics", Under::any_motion, {"method", "tolerance", "resolve", "fill", "audit"}},
     {"output", Under::any_motion, {"fields"}}};

@@ -184,6 +184,13 @@ constexpr Derivation of_block_with_two_sides[]{
      [](const Scene&, const Values& of) {
          return std::sqrt((of[0] * of[0] + of[1] * of[1]) / 3); // of a uniform box
      }},
+    {"incline", // of a block that is given by angles and distances
+     {"size_plus", "slenderness_plus", "size_minus", "slenderness_minus"},
+     [](const Scene&, const Values& of) {
+         const auto [plus, alpha_plus, minus, alpha_minus, _] = of;
+         return std::atan((plus * std::cos(alpha_plus) - minus * std::cos(alpha_minus)) /
+                          (plus * std::sin(alpha_plus) + minus * std::sin(alpha_minus)));
+     }},
     {"incline", {}, zero},
     {"base_plus", {"half_width", "center_offset"}, difference},
     {"base_minus", {"half_width", "center_offset"}, sum},
@@ -206,6 +213,7 @@ constexpr Derivation of_block_with_two_sides[]{
          return k * k + plus * minus * std::cos(alpha_plus + alpha_minus);
      }},
     {"gyration_over_size", {"radius_of_gyration", "size_plus"}, ratio},
+    {"center_over_half_height", {"center_height", "half_height"}, ratio},
     {"largest_restitution",
      {"moment_kept", "radius_of_gyration", "size_plus", "size_minus"},
      [](const Scene&, const Values& of) {

@@ -1,5 +1,7 @@
 #include "overturn/problem/given.hpp"
 
+#include "lengths.hpp"
+
 #include "overturn/problem/coordinates.hpp"
 
 #include <fmt/format.h>
@@ -103,7 +105,8 @@ void expect_motion(const Scene& scene, const Coordinates& coordinates, const Gri
         expect(coordinates, "frequency_parameter", "size",
                "Give size [m] or frequency_parameter [1/s], or width and height [m].");
     } else if (grid.has_two_sides()) {
-        expect(coordinates, "pga", "pga", "Give the peak ground acceleration over g.");
+        expect(coordinates, "pga", "pga",
+               scene.worded("Give the peak ground acceleration over g."));
         expect(coordinates, "pulse_period", "pulse_period",
                "Give it in s, or pulse_frequency in Hz.");
     } else {
@@ -129,6 +132,20 @@ struct Limit {
     bool applies = true;
 };
 
+/// The row of a table that gives this quantity at a place along these dimensions, or no_row.
+std::int64_t row_of(std::string_view quantity, std::int64_t place,
+                    const std::vector<std::size_t>& dimensions, const Grid& corners)
+{
+    if (!corners.has_table_column(quantity)) {
+        return GivenError::no_row;
+    }
+    const std::size_t table = *corners.dimension_of(quantity);
+    for (auto faster = dimensions.rbegin(); *faster != table; ++faster) {
+        place /= corners.dimensions[*faster].size();
+    }
+    return place % corners.dimensions[table].size();
+}
+
 /// Refuses the first corner beyond a limit.
 void expect_within(const Limit& limit, const Coordinates& coordinates, const Grid& corners)
 {
@@ -146,16 +163,7 @@ void expect_within(const Limit& limit, const Coordinates& coordinates, const Gri
         return;
     }
     const auto place = beyond - values.begin();
-    std::int64_t row = GivenError::no_row;
-    if (corners.has_table_column(*cause)) {
-        const std::size_t table = *corners.dimension_of(*cause);
-        row = place;
-        for (auto faster = dimensions.rbegin(); *faster != table; ++faster) {
-            row /= corners.dimensions[*faster].size();
-        }
-        row %= corners.dimensions[table].size();
-    }
-    throw GivenError(row, *cause,
+    throw GivenError(row_of(*cause, place, dimensions, corners), *cause,
                      fmt::format(" = {}: {} = {} is outside {}. {}",
                                  coordinates.along(dimensions, *cause)[std::size_t(place)],
                                  limit.coordinate, *beyond, limit.interval.text, limit.advice));
@@ -205,6 +213,17 @@ void expect_limits(const Coordinates& coordinates, const Grid& corners)
         {"vertical_pga", quantity("pga").interval, {"pga", "scale"}, overflow}};
     for (const Limit& limit : limits) {
         expect_within(limit, coordinates, corners);
+    }
+}
+
+/// Refuses blocks whose lengths are in centimetres or millimetres: computed as those of a tower,
+/// hardly anything would topple them.
+void expect_metres(const Scene& scene, const Coordinates& coordinates, const Grid& corners)
+{
+    if (const auto wrong = length_not_in_metres(scene, coordinates, corners)) {
+        throw GivenError(
+            row_of(wrong->quantity, std::int64_t(wrong->place), wrong->dimensions, corners),
+            wrong->quantity, wrong->message);
     }
 }
 
@@ -274,6 +293,7 @@ void expect_valid(const Scene& scene, const Grid& grid)
     expect_motion(scene, coordinates, grid);
     expect_directions(scene, grid);
     expect_limits(coordinates, corners);
+    expect_metres(scene, coordinates, corners);
     if (scene.is_recorded()) {
         expect_gravity(scene, corners);
     }

@@ -32,6 +32,9 @@ constexpr PlausibleRange slenderness{"alpha", " degrees", 0, 180 / std::numbers:
 // Larger blocks exist, but most lengths that would make one are in centimetres.
 constexpr PlausibleRange size{"R", " m", 0.02, 10, "lengths are in metres"};
 constexpr PlausibleRange incline{"the incline", " degrees", -10, 10, "angles are in radians"};
+constexpr PlausibleRange implied_incline{"the incline that the angles and distances imply",
+                                         " degrees", -10, 10,
+                                         "compare it with the base; angles are in radians"};
 constexpr PlausibleRange gyration{"the radius of gyration", " R", 0.1, 1.5,
                                   "lengths are in metres"};
 constexpr PlausibleRange period{"the period of the pulse", " s", 0.02, 20,
@@ -213,7 +216,8 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
         judge(size, name);
     }
     judge(gyration, "gyration_over_size");
-    judge(incline, "incline", "", std::numbers::pi / 180);
+    judge(grid.find("size_plus") != nullptr ? implied_incline : incline, "incline", "",
+          std::numbers::pi / 180);
     if (coordinates.has("center_height") && coordinates.has("half_height")) {
         const double highest = extent_of(coordinates.of("center_height").values).last;
         const double height = 2 * extent_of(coordinates.of("half_height").values).last;
@@ -241,7 +245,7 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
     }
     findings.push_back(finding_about_restitution(coordinates, grid.table() != nullptr));
     judge_directions(grid, coordinates, findings);
-    return text_of(findings);
+    return scene.worded(text_of(findings));
 }
 
 } // namespace overturn

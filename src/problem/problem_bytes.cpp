@@ -75,10 +75,10 @@ struct Archive {
     {
         // With structured bindings, a new member that is not named here does not compile.
         auto& [scene, grid, numerics, product, fields] = problem;
-        auto& [pulse, theory, shape, records, gravity] = scene;
+        auto& [pulse, theory, shape, records, gravity, motion_of] = scene;
         auto& [numbers, dimensions] = grid;
-        transfer_all(pulse, theory, shape, records, gravity, numbers, dimensions, numerics, product,
-                     fields);
+        transfer_all(pulse, theory, shape, records, gravity, motion_of, numbers, dimensions,
+                     numerics, product, fields);
     }
 
     template <class... Values>

@@ -54,6 +54,13 @@ double allowed(const char* name, double value)
     return value;
 }
 
+/// The motion of the scene is then one of the ground, or of a floor.
+Scene with_motion_of(Scene scene, const std::string& motion_of)
+{
+    scene.motion_of = choice_of<MotionOf>("motion_of", motion_of);
+    return scene;
+}
+
 /// A scene under a pulse; shape: the given numbers of the pulse by name.
 Scene scene_of_pulse(const std::string& pulse, const std::string& theory, double gravity,
                      const std::map<std::string, double>& shape)
@@ -227,7 +234,8 @@ py::dict component_of(const std::string& path, const ComponentChoice& choice,
                         py::array_t<double>(py::ssize_t(values.size()), values.data()),
                     "time_step"_a = component.time_step, "format"_a = file.format,
                     "is_uncorrected"_a = component.is_uncorrected, "header"_a = header,
-                    "remarks"_a = component.remarks);
+                    "motion_of"_a = name_of(component.motion_of.value_or(MotionOf::ground)),
+                    "ground_pga"_a = component.ground_pga, "remarks"_a = component.remarks);
 }
 
 /// The regions of this kind by name.
@@ -249,6 +257,7 @@ PYBIND11_MODULE(_core, module)
     py::class_<Numerics>(module, "Numerics");
     module.def("scene_of_pulse", &scene_of_pulse);
     module.def("scene_of_record", &scene_of_record);
+    module.def("with_motion_of", &with_motion_of);
     module.def("numerics", &numerics_of);
     module.def("evaluate", &evaluate);
     module.def("component_of", &component_of);

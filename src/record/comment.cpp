@@ -1,5 +1,6 @@
 #include "comment.hpp"
 
+#include "comment_words.hpp"
 #include "stated_unit.hpp"
 
 #include <boost/algorithm/string.hpp>
@@ -29,58 +30,7 @@ std::string text_of_comment(std::string_view line)
     return text;
 }
 
-bool begins_with_number(std::string_view word)
-{
-    return word.find_first_of("0123456789.") == 0;
-}
-
-bool introduces_unit(std::string_view word)
-{
-    return is_one_of(word, {"in", "of", "unit", "units"});
-}
-
-bool is_acceleration(std::string_view word)
-{
-    return is_one_of(word, {"a", "acc", "accel", "accn", "acceleration", "accelerations"});
-}
-
-/// Whether a word is a length, or something over one, where a unit is expected.
-bool is_length(std::string_view word)
-{
-    return is_one_of(word, {"mm", "cm", "dm", "m", "km", "ft", "feet", "foot", "inch", "inches",
-                            "cms", "mms", "mps", "cmps", "mmps"});
-}
-
-bool is_factor(std::string_view word)
-{
-    return word.find_first_of("*/") == 0 ||
-           is_one_of(word,
-                     {"percent", "milli", "micro", "tenth", "tenths", "hundredths", "thousandths",
-                      "divided", "factor", "multiplied", "multiply", "scale", "scaled", "times"});
-}
-
-/// Whether a word is a unit of acceleration or of velocity wherever it is: a known name, alone or
-/// before a factor, such as g/10, or a length over something.
-bool is_unit(std::string_view word)
-{
-    const std::size_t end = std::min(word.find_first_of("/*0123456789"), word.size());
-    const std::string_view name = word.substr(0, end);
-    return is_one_of(name, {"g",    "gs",     "gn",    "gravity", "gravities", "gal",  "gals",
-                            "mgal", "mg",     "ug",    "cmss",    "mss",       "si",   "mks",
-                            "cgs",  "metric", "count", "counts",  "volt",      "volts"}) ||
-           word.starts_with("n/kg") || word.starts_with("in/s") || word.find("/s2") != word.npos ||
-           (is_length(name) && is_factor(word.substr(end)));
-}
-
-/// The unit in a word: "g" of 0.35g, accg and acc/g, "m/s2" of a/m/s2; the word if it has none.
-std::string_view unit_of_word(std::string_view word)
-{
-    word.remove_prefix(std::min(word.find_first_not_of("0123456789."), word.size()));
-    if (!is_unit(word) || is_acceleration(word.substr(0, word.find('/')))) {
-        word.remove_prefix(std::min(word.find('/') + 1, word.size()));
-    }
-    return word.ends_with('g') && is_acceleration(word.substr(0, word.size() - 1)) ? "g" : word;
-}
+constexpr std::string_view between_words = " ,;:=()[]{}<>|\"_-#";
 
 /// The words of a comment around one that may be a unit.
 struct Place {
@@ -129,6 +79,43 @@ struct Place {
                 !is_one_of(word(), {"are", "in", "is", "of", "s", "t", "time"}));
     }
 
+    /// The words that say of what this is the unit, the nearest first: those before it, back to a
+    /// comma or a semicolon, without numbers and words such as "in" and "units".
+    std::vector<std::string_view> subject() const
+    {
+        constexpr int most = 20; // of a long comment
+        std::vector<std::string_view> names;
+        for (int i = 0; i > -most && !word(i - 1).empty() &&
+                        gap_before(i).find_first_of(",;") == std::string_view::npos;
+             --i) {
+            const std::string_view name = word(i - 1);
+            if (!begins_with_number(name) && !introduces_unit(name) &&
+                !is_one_of(name, {"is", "are"})) {
+                names.push_back(name);
+            }
+        }
+        return names;
+    }
+
+    /// Whether the unit is that of another quantity than the samples, as in "Depth (km): 10", "Vs30
+    /// [m/s]", "Peak acceleration (gal) 343" and "1.25 V/g".
+    bool is_of_other_quantity() const
+    {
+        if (is_sensitivity(word()) || (word(-1).ends_with('/') && is_sensitivity(word(-1)))) {
+            return true;
+        }
+        return is_unit(unit_of_word(word())) && !is_length_or_velocity(word())
+                   ? is_acceleration_of_other()
+                   : is_length_of_other();
+    }
+
+    /// Whether this word names velocities or displacements that the file may contain.
+    bool is_other_motion() const
+    {
+        return (word().starts_with("velocit") || word().starts_with("displacement")) &&
+               !is_key(1) && !is_key(2) && !std::ranges::any_of(subject(), is_of_wave_or_fault);
+    }
+
     /// Whether the unit is that of a value, as in "PGA 0.35 g" and "v = 3 m/s", and not a multiple.
     bool is_value() const
     {
@@ -139,11 +126,14 @@ struct Place {
                 is_one_of(before, {"g", "max", "maximum", "peak", "pga", "vs30"}));
     }
 
-    /// Whether g is defined, as in g = 9.81.
+    /// Whether g is defined, as in g = 9.81 and gravity (m/s2): 9.81.
     bool is_defined() const
     {
-        return word() == "g" && gap_before(1).find('=') != std::string_view::npos &&
-               !has_factor() && !is_acceleration(word(-1)) && !introduces_unit(word(-1));
+        const bool is_stated = gap_before(1).find('=') != std::string_view::npos ||
+                               (has_size_of_gravity(word(1)) && !gap_before(1).empty()) ||
+                               (has_size_of_gravity(word(2)) && unit_named(word(1)).has_value());
+        return is_one_of(word(), {"g", "gravity"}) && is_stated && !has_factor() &&
+               !is_acceleration(word(-1)) && !introduces_unit(word(-1));
     }
 
     /// Whether a factor changes the unit, as in 0.01 g, percent of g, and g times 2.
@@ -160,6 +150,64 @@ struct Place {
         return begins_with_number(word()) ||
                (begins_with_number(word(-1)) && trimmed(gap_before()).empty());
     }
+
+private:
+    /// Whether a number before the unit is a factor, as in "in units of 0.01 g".
+    bool has_introduced_number() const
+    {
+        const int number = begins_with_number(word()) ? 0 : -1;
+        const std::string_view before = word(number - (word(number - 1) == "of" ? 2 : 1));
+        return has_number() && is_one_of(before, {"in", "unit", "units"});
+    }
+
+    /// Whether a value of this unit is before or behind it.
+    bool has_value() const
+    {
+        return (has_number() && !has_introduced_number()) ||
+               (begins_with_number(word(1)) &&
+                gap_before(1).find_first_of(",;") == std::string_view::npos);
+    }
+
+    /// Whether the number at this offset is the value of the words before it: "count: 4000".
+    bool is_key(int number) const
+    {
+        return begins_with_number(word(number)) &&
+               gap_before(number).find_first_of(":=") != std::string_view::npos;
+    }
+
+    /// Whether a unit of acceleration, or one that is not known, is one of a peak or the like.
+    bool is_acceleration_of_other() const
+    {
+        const std::vector<std::string_view> names = subject();
+        if (names.empty() || has_introduced_number()) {
+            return false;
+        }
+        if (is_one_of(word(), {"count", "counts"}) && is_key(1)) { // of the samples
+            return true;
+        }
+        const auto any = [&](bool (*is)(std::string_view)) {
+            return std::ranges::any_of(names, is);
+        };
+        return has_value()
+                   ? is_one_of(names[0], {"g", "gravity"}) || (any(is_peak) && !any(is_factor)) ||
+                         (any(is_of_instrument) && !is_contents(names[0]))
+                   : is_peak(names[0]) && !any(is_acceleration);
+    }
+
+    /// Whether a unit of length, velocity or time is one of a distance, a wave or the like.
+    bool is_length_of_other() const
+    {
+        const std::vector<std::string_view> names = subject();
+        if (names.empty()) {
+            return has_number() && !has_introduced_number() && words.size() > 2;
+        }
+        if (is_velocity_or_displacement(names[0])) {
+            return std::ranges::any_of(names, is_of_wave_or_fault) ||
+                   (begins_with_number(word(1)) && word(2).empty());
+        }
+        return has_value() ? !is_contents(names[0])
+                           : !is_column(names[0]) && !std::ranges::any_of(names, is_acceleration);
+    }
 };
 
 } // namespace
@@ -170,18 +218,39 @@ bool is_comment(std::string_view line)
     return text.starts_with('#') || text.starts_with('%');
 }
 
+std::optional<std::string_view> value_of(std::string_view comment, std::string_view key)
+{
+    const std::size_t equals = comment.find('=');
+    std::string_view name = trimmed(comment.substr(0, equals));
+    name.remove_prefix(std::min(name.find_first_not_of("#%"), name.size()));
+    if (equals == comment.npos || trimmed(name) != key) {
+        return std::nullopt;
+    }
+    const std::string_view value = trimmed(comment.substr(equals + 1));
+    const bool is_quoted = value.size() > 1 && value.front() == '"' && value.back() == '"';
+    return is_quoted ? value.substr(1, value.size() - 2) : value;
+}
+
+bool next_content(Lines& lines)
+{
+    return next_line(
+        lines, [](std::string_view line) { return !trimmed(line).empty() && !is_comment(line); });
+}
+
 void expect_unit(const Lines& comment, AccelerationUnit unit)
 {
     const std::string text = text_of_comment(comment.line());
-    const std::vector<std::string_view> words = words_of(text, " ,;:=()[]{}<>|\"_-#");
+    const std::vector<std::string_view> words = words_of(text, between_words);
     for (std::size_t i = 0; i < words.size(); ++i) {
         const Place place{text, words, i};
         if (place.is_labelled() &&
-            is_one_of(place.word(), {"ms", "millis", "us", "micros", "min", "minutes", "hours"})) {
+            is_one_of(place.word(), {"ms", "millis", "us", "micros", "min", "minutes", "hours"}) &&
+            !place.is_of_other_quantity()) {
             comment.refuse("the comment {} states times in {}. Give times in seconds.",
                            comment.quoted(), place.word());
         }
-        if (!place.states_unit() || place.is_value() || place.is_defined()) {
+        if (!place.states_unit() || place.is_value() || place.is_defined() ||
+            place.is_of_other_quantity()) {
             continue;
         }
         const auto stated = unit_named(unit_of_word(place.word()));
@@ -190,6 +259,19 @@ void expect_unit(const Lines& comment, AccelerationUnit unit)
             comment.refuse("the comment {} contains {}, but may only contain the given unit, {}, "
                            "without a factor. Correct one of them, or remove the comment.",
                            comment.quoted(), quoted_bytes(place.word()), name_of(unit));
+        }
+    }
+}
+
+void expect_no_other_motion(const Lines& comment)
+{
+    const std::string text = text_of_comment(comment.line());
+    const std::vector<std::string_view> words = words_of(text, between_words);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (Place{text, words, i}.is_other_motion()) {
+            comment.refuse("{} does not contain accelerations. Give the file with the "
+                           "accelerations, or remove the comment.",
+                           comment.quoted());
         }
     }
 }

@@ -10,12 +10,23 @@
 
 #include <fmt/ranges.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace overturn {
 
 namespace {
+
+/// Without the end that fills a block of a tape or a disk, or that ends files of DOS: 0x1a or NUL,
+/// and then only these, blanks and line ends.
+std::string_view without_padding(std::string_view text)
+{
+    constexpr std::string_view fill("\x1a\0", 2);
+    constexpr std::string_view padding("\x1a\0 \t\r\n", 6);
+    const std::size_t end = text.find_last_not_of(padding) + 1; // 0 if there is nothing else
+    return text.substr(0, text.find_first_of(fill, end));
+}
 
 /// Whether a line is like `2 CORRECTED ACCELEROGRAM`: the digit and the name of a kind of data.
 bool is_smc_title(std::string_view text)
@@ -25,51 +36,124 @@ bool is_smc_title(std::string_view text)
             contains(text, "DISPLACEMENT") || contains(text, "SPECTR"));
 }
 
-/// Proceeds to the first line that is neither blank nor a comment; false if there is none.
-bool next_content(Lines& lines)
-{
-    return next_line(
-        lines, [](std::string_view line) { return !trimmed(line).empty() && !is_comment(line); });
-}
+using Reader = RecordFile (*)(Lines lines, const RecordOptions& options);
 
 /// Words by which a line of a header shows its format.
 struct Mark {
     std::string_view words;
     bool is_at_begin; ///< of a line
-    RecordFile (*read)(Lines lines, const RecordOptions& options);
-    std::size_t line = 0; ///< the only line that may contain them; 0: any
+    Reader read;
+    std::size_t line = 0;       ///< the only line that may contain them; 0: any
+    bool needs_another = false; ///< of the same format: other formats have these words too
 };
 
-constexpr std::array<Mark, 12> marks{{{"NPTS", false, read_at2, 4},
-                                      {"Number of points", true, read_v2a, 10},
-                                      {"Origin Time", true, read_knet},
-                                      {"Sampling Freq", true, read_knet},
-                                      {"Scale Factor", true, read_knet},
-                                      {"EVENT_NAME:", true, read_esm},
-                                      {"SAMPLING_INTERVAL_S:", true, read_esm},
-                                      {"NDATA:", true, read_esm},
-                                      {"(Format v", false, read_cosmos},
-                                      {"Uncorrected accelerogram", true, read_csmip},
-                                      {"equally-spaced intervals of", false, read_csmip},
-                                      {"data equally spaced at", false, read_csmip}}};
+constexpr Mark marks[] = {{"NPTS", false, read_at2, 4},
+                          {"Number of points", true, read_v2a, 10, true},
+                          {"Component", true, read_v2a, 13, true},
+                          {"Acceleration:", true, read_v2a, 14, true},
+                          {"Origin Time", true, read_knet, 0, true},
+                          {"Sampling Freq", true, read_knet, 0, true},
+                          {"Duration Time", true, read_knet, 0, true},
+                          {"Dir.", true, read_knet, 0, true},
+                          {"Scale Factor", true, read_knet, 0, true},
+                          {"EVENT_NAME:", true, read_esm, 0, true},
+                          {"SAMPLING_INTERVAL_S:", true, read_esm, 0, true},
+                          {"NDATA:", true, read_esm, 0, true},
+                          {"(Format v", false, read_cosmos},
+                          {"Uncorrected accelerogram", true, read_csmip},
+                          {"equally-spaced intervals of", false, read_csmip},
+                          {"data equally spaced at", false, read_csmip}};
 
-/// The first mark in the lines that may be a header; null if they have none.
-const Mark* first_mark(Lines lines)
+constexpr std::size_t most_header_lines = 100;
+
+/// As much of a line as a header may have; lines of other files may be long.
+std::string_view begin_of(const Lines& lines)
 {
-    constexpr std::size_t most_lines = 100;
     constexpr std::size_t most_characters = 200;
-    while (lines.number() < most_lines && lines.next()) {
-        const std::string_view line = trimmed(lines.line()).substr(0, most_characters);
+    return trimmed(lines.line()).substr(0, most_characters);
+}
+
+bool has_mark(const Lines& lines, const Mark& mark)
+{
+    const std::string_view line = begin_of(lines);
+    const std::size_t end = place_after(line, mark.words);
+    return !is_comment(line) && end != line.npos &&
+           (!mark.is_at_begin || end == mark.words.size()) &&
+           (mark.line == 0 || mark.line == lines.number());
+}
+
+/// The reader of the format that the lines which may be a header show; null if they show none.
+Reader reader_of_header(Lines lines)
+{
+    std::vector<Mark> found; // that need another one
+    while (lines.number() < most_header_lines && lines.next()) {
         for (const Mark& mark : marks) {
-            const std::size_t end = place_after(line, mark.words);
-            if (!is_comment(line) && end != std::string_view::npos &&
-                (!mark.is_at_begin || end == mark.words.size()) &&
-                (mark.line == 0 || mark.line == lines.number())) {
-                return &mark;
+            if (!has_mark(lines, mark)) {
+                continue;
             }
+            if (!mark.needs_another || std::ranges::any_of(found, [&](const Mark& other) {
+                    return other.read == mark.read && other.words != mark.words;
+                })) {
+                return mark.read;
+            }
+            found.push_back(mark);
         }
     }
     return nullptr;
+}
+
+/// The reader of the format that the first lines have; null if it is not known.
+Reader reader_of(const Lines& lines)
+{
+    Lines title = lines;
+    if (title.next() && is_smc_title(trimmed(title.line()))) {
+        return read_smc;
+    }
+    if (const Reader read = reader_of_header(lines)) {
+        return read;
+    }
+    Lines data = lines;
+    if (next_content(data)) {
+        const std::string_view line = trimmed(data.line());
+        if (is_number(line.substr(0, line.find_first_of(" \t,")))) {
+            return read_text;
+        }
+    }
+    return nullptr;
+}
+
+constexpr std::string_view how_to_convert =
+    "AT2 (NPTS and DT in line 4), V2A, SMC, K-NET, KiK-net, COSMOS, CSMIP (volume 2), ESM, or text "
+    "of one or two columns, in which # or % precedes comments. Convert the file to one of these.";
+
+/// A format that is not read.
+struct UnreadFormat {
+    std::string_view words; ///< in its header
+    std::string_view name;
+    Reader resembled; ///< of the format that its header resembles; null if that of none
+};
+
+constexpr UnreadFormat unread_formats[] = {
+    {"Station USC#", "USC", nullptr},
+    {"points of acc data equally spaced at", "USC", read_csmip},
+    {"* VOL1DS FILE", "BHRC (Iran)", nullptr},
+    {"#Earthquake Information", "CWB (Taiwan)", read_text}}; // time and three components
+
+/// read: that of the format that the lines seem to have; null if it is not known.
+void expect_no_unread_format(Lines lines, Reader read)
+{
+    Lines row = lines;
+    if (read == read_text && next_content(row) && words_of(begin_of(row), " \t,").size() <= 2) {
+        return;
+    }
+    while (lines.number() < most_header_lines && lines.next()) {
+        for (const auto& [words, name, resembled] : unread_formats) {
+            if ((read == nullptr || read == resembled) && contains(begin_of(lines), words)) {
+                lines.refuse("{} shows the format of {}, which is not known. Known formats are {}",
+                             lines.quoted(), name, how_to_convert);
+            }
+        }
+    }
 }
 
 [[noreturn]] void refuse_format(Lines lines)
@@ -79,30 +163,45 @@ const Mark* first_mark(Lines lines)
                                     ? "is empty. Give a file with a recorded motion."
                                     : "has no samples. Give a file with a recorded motion.");
     }
-    lines.refuse("{} is not the beginning of a known format: AT2 (NPTS and DT in line 4), V2A, "
-                 "SMC, K-NET, KiK-net, COSMOS, CSMIP (volume 2), ESM, or text of one or two "
-                 "columns, in which # or % precedes comments. Convert the file to one of these.",
-                 lines.quoted());
+    lines.refuse("{} is not the beginning of a known format: {}", lines.quoted(), how_to_convert);
+}
+
+/// Refuses characters that no text has. A carriage return may only precede the end of a line.
+/// is_known: whether the file begins in a known format.
+void expect_text(Lines lines, bool is_known)
+{
+    while (lines.next()) {
+        for (const char letter : lines.line()) {
+            const auto code = static_cast<unsigned char>(letter);
+            if (letter == '\r') {
+                lines.refuse(
+                    "a carriage return is within the line. Convert line ends to LF or CR LF.");
+            }
+            if (code < 0x20 && letter != '\t') {
+                lines.refuse("the character 0x{:02x} is not text{}{}", code,
+                             is_known ? ". Give a file of text: a published record, or columns."
+                                      : ", and the file does not begin in a known format: ",
+                             is_known ? "" : how_to_convert);
+            }
+        }
+    }
 }
 
 /// Reads the samples in the format that the first lines have.
 RecordFile read_known_format(const Lines& lines, const RecordOptions& options)
 {
+    const Reader read = reader_of(lines);
+    expect_no_unread_format(lines, read);
+    expect_text(lines, read != nullptr);
+    if (read == nullptr) {
+        refuse_format(lines);
+    }
     Lines title = lines;
-    if (title.next() && is_smc_title(trimmed(title.line()))) {
-        return read_smc(lines, options);
+    if (next_content(title) && (contains(begin_of(title), "Fourier amplitude spectra") ||
+                                contains(begin_of(title), "Response spectra"))) { // volume 3
+        refuse_motion(title);
     }
-    if (const Mark* const mark = first_mark(lines)) {
-        return mark->read(lines, options);
-    }
-    Lines data = lines;
-    if (next_content(data)) {
-        const std::string_view line = trimmed(data.line());
-        if (is_number(line.substr(0, line.find_first_of(" \t,")))) {
-            return read_text(lines, options);
-        }
-    }
-    refuse_format(lines);
+    return read(lines, options);
 }
 
 /// Refuses a header of which a line states another unit than that of the format, as in "units: g".
@@ -119,25 +218,6 @@ void expect_no_other_unit(const RecordFile& file, const Lines& lines)
                                       quoted_bytes(trimmed(line)), quoted_bytes(name),
                                       name_of(component.unit));
                 }
-            }
-        }
-    }
-}
-
-/// Refuses characters that no text has. A carriage return may only precede the end of a line.
-void expect_text(Lines lines)
-{
-    while (lines.next()) {
-        for (const char letter : lines.line()) {
-            const auto code = static_cast<unsigned char>(letter);
-            if (letter == '\r') {
-                lines.refuse(
-                    "a carriage return is within the line. Convert line ends to LF or CR LF.");
-            }
-            if (code < 0x20 && letter != '\t') {
-                lines.refuse("the character 0x{:02x} is not text. Give a file of text: a "
-                             "published record, or columns.",
-                             code);
             }
         }
     }
@@ -212,17 +292,12 @@ ChosenComponent chosen_component(const RecordFile& content, const ComponentChoic
 RecordFile parse_record(std::string_view text, const std::string& name,
                         const RecordOptions& options)
 {
-    text = without_byte_order_mark(text);
-    if (text.ends_with('\x1a')) { // of DOS files
-        text.remove_suffix(1);
-    }
-    const Lines lines(text, name);
+    const Lines lines(without_padding(without_byte_order_mark(text)), name);
     if (options.time_step && !(*options.time_step > 0 && std::isfinite(*options.time_step))) {
         lines.refuse_file("time_step = {} was given, but must be above 0 and finite. Give the "
                           "seconds between two samples.",
                           *options.time_step);
     }
-    expect_text(lines);
     RecordFile file = read_known_format(lines, options);
     for (RecordComponent& component : file.components) {
         component.name = as_utf8(component.name);

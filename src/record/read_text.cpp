@@ -57,6 +57,8 @@ double simplest_decimal(double low, double high, double near)
 ///     |t_i - (t_0 + i step)| <= h_i
 ///
 /// for one step. Each time bounds the step on both sides; the intersection of these ranges is kept.
+/// Times of few digits satisfy this even if one is missing, with a step that is too long: t_i in
+/// hundredths, without 0.50 s, also have the step 0.01001 s. A gap is refused for this reason.
 class EvenTimes {
 public:
     /// Refuses a word of the current line that is not a number, and a time that is not after the
@@ -78,17 +80,13 @@ public:
                          word, last_);
         } else {
             // Rounding: of both times, of their difference, of its sum with the half unit.
-            constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
             const double half_unit =
                 printed_unit(word) / 2 + rounding * (std::abs(time) + std::abs(first_));
+            keep_longest(lines, time, half_unit);
             const double least = std::max(least_, (time - first_ - half_unit) / double(size_));
             const double most = std::min(most_, (time - first_ + half_unit) / double(size_));
             if (!(least <= most)) {
-                lines.refuse(
-                    "the time is {} s, but must be {:.9g} s to within half a unit of its last "
-                    "digit: times must be evenly spaced, and those before have the step "
-                    "{:.9g} s. Resample the record, or give one column and time_step.",
-                    word, first_ + double(size_) * step(), step());
+                refuse_uneven(lines, word, time, half_unit);
             }
             least_ = least;
             most_ = most;
@@ -104,14 +102,78 @@ public:
         return simplest_decimal(least_, most_, (last_ - first_) / double(size_ - 1));
     }
 
+    /// Refuses times of which one step is twice all others or more, to within the last digit, if
+    /// the times before it agree with a missing sample. Rounding makes no such step: printed steps
+    /// of even times differ by one unit of the last digit at most, as 3 and 2, unless they are of 1
+    /// and 2 units. Then it makes one among n only if the step is between 1 + 1/2n and 1 + 3/2n
+    /// units, as 0.01001 s printed in hundredths.
+    void expect_no_gap() const
+    {
+        const double tolerance = 2 * rounding * (std::abs(first_) + std::abs(last_));
+        if (may_be_gap_ && second_longest_ > 0 && longest_ > 1.5 * second_longest_ + tolerance &&
+            longest_ + unit_of_longest_ + tolerance >= 2 * second_longest_) {
+            after_longest_->refuse(
+                "the time is {:.9g} s after the previous one, but all other steps are at most "
+                "{:.9g} s: a sample is missing. Give the complete record; if none is missing, give "
+                "times with more digits.",
+                longest_, second_longest_);
+        }
+    }
+
     double start() const { return first_; } ///< [s]
     std::size_t size() const { return size_; }
 
 private:
+    /// Whether the times up to now have a step of which there are so many up to this time.
+    bool agree_with(double count, double time, double half_unit) const
+    {
+        return count * least_ - half_unit <= time - first_ &&
+               time - first_ <= count * most_ + half_unit;
+    }
+
+    /// Of the step to this time, in the current line.
+    void keep_longest(const Lines& lines, double time, double half_unit)
+    {
+        const double step = time - last_;
+        if (step > longest_) {
+            second_longest_ = std::exchange(longest_, step);
+            unit_of_longest_ = 2 * half_unit;
+            may_be_gap_ = agree_with(double(size_ + 1), time, half_unit);
+            after_longest_ = lines;
+        } else {
+            second_longest_ = std::max(second_longest_, step);
+        }
+    }
+
+    /// Refuses a time that has another step than those before it.
+    [[noreturn]] void refuse_uneven(const Lines& lines, std::string_view word, double time,
+                                    double half_unit) const
+    {
+        const double missing = std::round((time - first_) / step()) - double(size_);
+        const bool is_gap = missing >= 1 && agree_with(double(size_) + missing, time, half_unit);
+        if (after_longest_->number() != lines.number()) {
+            expect_no_gap(); // at an earlier time
+        }
+        lines.refuse("the time is {} s, but must be {:.9g} s to within half a unit of its last "
+                     "digit: times must be evenly spaced, and those before have the step {:.9g} s. "
+                     "{}",
+                     word, first_ + double(size_) * step(), step(),
+                     is_gap ? fmt::format("{} {} missing. Give the complete record.", missing,
+                                          missing == 1 ? "sample is" : "samples are")
+                            : "Resample the record, or give one column and time_step.");
+    }
+
+    static constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+
     double first_ = 0;                                      ///< [s]
     double last_ = 0;                                       ///< [s]
     double least_ = 0;                                      ///< lower bound of the step [s]
     double most_ = std::numeric_limits<double>::infinity(); ///< upper bound of the step [s]
+    double longest_ = 0;                                    ///< step between two times [s]
+    double second_longest_ = 0;                             ///< [s]
+    double unit_of_longest_ = 0;                            ///< of its last digit [s]
+    bool may_be_gap_ = false; ///< whether those before the longest agree with a missing sample
+    std::optional<Lines> after_longest_; ///< at the second of its times
     std::size_t size_ = 0;
 };
 
@@ -131,15 +193,20 @@ std::vector<std::string_view> columns_of(std::string_view line)
     return columns;
 }
 
-/// The first row decides how many columns there are, and thus whether the times are known.
-void expect_columns(const Lines& lines, std::size_t found, std::size_t expected,
-                    const std::optional<double>& time_step)
+void expect_one_or_two_columns(const Lines& lines, std::size_t found)
 {
     if (found > 2) {
         lines.refuse("the line has {} columns. Give one column of accelerations, or two of times "
                      "and accelerations; the decimal mark is a point.",
                      found);
     }
+}
+
+/// The first row decides how many columns there are, and thus whether the times are known.
+void expect_columns(const Lines& lines, std::size_t found, std::size_t expected,
+                    const std::optional<double>& time_step)
+{
+    expect_one_or_two_columns(lines, found);
     if (found != expected) {
         lines.refuse("the line has {} {}, but the previous lines have {}. Correct it.", found,
                      noun_of(found, "columns"), expected);
@@ -170,18 +237,6 @@ void expect_no_decimal_comma(const Lines& lines)
     }
 }
 
-/// Refuses a comment about velocities or displacements, of a file none of whose comments speaks of
-/// accelerations.
-void expect_acceleration(const Lines& comment)
-{
-    if (contains(comment.line(), "velocit") || contains(comment.line(), "displacement")) {
-        comment.refuse(
-            "{} does not contain accelerations. Give the file with the accelerations, or "
-            "remove the comment.",
-            comment.quoted());
-    }
-}
-
 /// Refuses a column that begins with the number of its samples, with or without the time step.
 void expect_no_count(const Lines& lines, const std::vector<double>& column)
 {
@@ -194,22 +249,49 @@ void expect_no_count(const Lines& lines, const std::vector<double>& column)
     }
 }
 
+/// Reads a comment such as `motion_of = floor`; false if it is another one.
+bool read_statement(const Lines& comment, RecordComponent& component)
+{
+    if (const auto value = value_of(comment.line(), "motion_of")) {
+        component.motion_of = enumerator_named<MotionOf>(*value);
+        if (!component.motion_of) {
+            comment.refuse("motion_of = {} is not one of {}. Correct the comment, or remove it.",
+                           *value, fmt::join(names_of<MotionOf>, ", "));
+        }
+        return true;
+    }
+    if (const auto value = value_of(comment.line(), "ground_pga")) {
+        component.ground_pga = number_of(comment, *value);
+        if (!(*component.ground_pga > 0)) {
+            comment.refuse("ground_pga = {} is outside (0, inf). It is the peak acceleration of "
+                           "the ground over g. Correct the comment, or remove it.",
+                           *value);
+        }
+        return true;
+    }
+    return false;
+}
+
 } // namespace
 
 RecordFile read_text(Lines lines, const RecordOptions& options)
 {
+    Lines ahead = lines;
+    const bool has_points = next_line(ahead, [](std::string_view line) {
+        return !is_comment(line) && line.find('.') != line.npos;
+    });
+    ahead = lines;
+    if (has_points && next_content(ahead)) { // before a unit is asked for, which would not help
+        expect_one_or_two_columns(ahead, columns_of(ahead.line()).size());
+    }
     if (!options.unit) {
         lines.refuse_file(
             "files in text format do not state the unit of the accelerations. Give one of {}: {}.",
             fmt::join(names_of<AccelerationUnit>, ", "), how_to_state("units"));
     }
-    Lines ahead = lines;
+    ahead = lines;
     const bool speaks_of_accelerations = next_line(
         ahead, [](std::string_view line) { return is_comment(line) && contains(line, "acc"); });
-    ahead = lines;
-    const bool has_points = next_line(ahead, [](std::string_view line) {
-        return !is_comment(line) && line.find('.') != line.npos;
-    });
     RecordComponent component;
     component.unit = *options.unit;
     component.header = kept_lines(lines, std::string_view::npos, is_comment);
@@ -217,9 +299,12 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
     std::size_t columns = 0;
     while (lines.next()) {
         if (is_comment(lines.line())) {
+            if (read_statement(lines, component)) {
+                continue;
+            }
             expect_unit(lines, *options.unit);
             if (!speaks_of_accelerations) {
-                expect_acceleration(lines);
+                expect_no_other_motion(lines);
             }
             if (options.time_step) { // the file has one column
                 expect_time_step(lines, *options.time_step);
@@ -252,6 +337,7 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
         expect_no_count(lines, component.acceleration);
         component.time_step = *options.time_step;
     } else {
+        times.expect_no_gap();
         component.time_step = times.step();
         component.start = times.start();
     }

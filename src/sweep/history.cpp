@@ -217,7 +217,10 @@ private:
         };
         for (const Event<double>& event : path_.events) {
             const double time = time_at(event.rocking.phase);
-            follow(time, at);
+            const bool is_at_onset = event.rocking.phase == excitation_.motion.begin;
+            follow(time, [&](double before) { // the onset, at which the motion may jump
+                return is_at_onset ? resting(before, 0.0) : at(before);
+            });
             latest = event.kind == EventKind::rest ? nullptr : &event;
             if (event.kind != EventKind::step) {
                 record_event(event.kind, at(time));

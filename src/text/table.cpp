@@ -1,11 +1,11 @@
 #include "overturn/text/table.hpp"
 
 #include "overturn/text/error.hpp"
+#include "overturn/text/parse_number.hpp"
 #include "overturn/text/quoting.hpp"
 #include "overturn/text/utf8.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <optional>
 
@@ -100,11 +100,11 @@ private:
 /// The number, NaN for an empty value; nullopt if it is text.
 std::optional<double> number_in(std::string_view value)
 {
-    double number = std::numeric_limits<double>::quiet_NaN();
-    const char* const first = value.data() + (value.starts_with('+') ? 1 : 0);
-    const char* const last = value.data() + value.size();
-    const auto [end, error] = std::from_chars(first, last, number);
-    return value.empty() || (error == std::errc() && end == last) ? std::optional(number)
+    if (value.empty()) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    const ParsedNumber number = parse_number(value);
+    return is_whole(number, value) && number.error == std::errc() ? std::optional(number.value)
                                                                   : std::nullopt;
 }
 

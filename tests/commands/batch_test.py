@@ -2,6 +2,7 @@
 scontrol."""
 
 import os
+import pathlib
 import shutil
 import subprocess
 import unittest
@@ -12,6 +13,31 @@ import numpy as np
 from program import ENVIRONMENT, JOBS, OVERTURN, PATIENCE, Scratch
 
 SCRIPT = JOBS / "slurm" / "run_until_done"
+
+
+# The scripts that need arguments or the environment of another program.
+SCRIPTS = ["jobs/slurm/many_nodes.sbatch", "jobs/slurm/one_node.sbatch", "jobs/slurm/run_until_done",
+           "tests/arm/check_arm", "tests/faults/cut_link", "tests/fuzz/run_targets", "tests/install/check_wheel",
+           "tests/layout/sources_are_formatted", "tests/support/under_other_libraries",
+           "tests/support/under_valgrind", "tools/check values", "tools/check fill x"]
+
+
+class AScript(unittest.TestCase):
+    def test_without_what_it_needs_prints_how_to_use_it(self):
+        environment = {name: value for name, value in os.environ.items()
+                       if name != "OVERTURN" and not name.startswith("SLURM_")}
+        for script in SCRIPTS:
+            for arguments in ([], ["--help"], [""]):
+                if arguments and script.startswith("tools/") or arguments == [""] and script.startswith("tests/"):
+                    continue  # means something, or names the checkout
+                with self.subTest(script=script, arguments=arguments):
+                    command = [*script.split(), *arguments]
+                    result = subprocess.run(["bash", *command], cwd=JOBS.parent, env=environment, timeout=PATIENCE,
+                                            stdin=subprocess.DEVNULL, capture_output=True, text=True)
+                    output = result.stdout + result.stderr
+                    self.assertEqual(result.returncode, 2, output)
+                    self.assertIn(pathlib.Path(command[0]).name, output)
+                    self.assertNotRegex(output, r"line \d+:|unbound variable")
 
 
 class ABatchJob(Scratch):

@@ -1,6 +1,8 @@
-"""The fields friction and normal compared with a motion that SciPy integrates, with forces from the acceleration of
-the centre of mass. Requires OVERTURN (the binary) in the environment."""
+"""The fields peak, friction and normal compared with a motion that SciPy integrates, with forces from the acceleration
+of the centre of mass. Requires OVERTURN (the binary) in the environment. SUDDEN_ONSETS, 3 by default, is the number of
+points of each kind of block under each motion that begins with a jump."""
 
+import os
 import unittest
 
 import h5py
@@ -53,12 +55,12 @@ class Rocker:
 class Follower:
     """Follows a block from rest under a ground acceleration over g that is smooth between the times `pieces` and ends
     with the last of them. `demand` is the largest friction and the smallest normal force; None if the block bounces
-    too often to be followed."""
+    too often to be followed. `peak` is the largest tilt over alpha, infinite if the block falls."""
 
     def __init__(self, block, ground, pieces):
         self.block, self.ground, self.pieces = block, ground, pieces
         self.kept, self.beyond = [block.at_rest(0)], []
-        self.demand = None
+        self.demand, self.peak = None, 0.0
         if self.follow():
             friction, normal = np.array(self.kept).T
             self.demand = friction.max(), normal.min()
@@ -100,7 +102,8 @@ class Follower:
                         return True
                     begin = time
                     time, side = self.uplift(time, end)
-                    self.kept += self.extremes(lambda t: self.block.at_rest(ground(t)), begin, time)
+                    if time > begin:
+                        self.kept += self.extremes(lambda t: self.block.at_rest(ground(t)), begin, time)
                     tilt, rate = 0.0, 0.0
                     continue
                 time, tilt, rate, event = self.arc(side, (time, end), (tilt, rate), ground)
@@ -111,7 +114,8 @@ class Follower:
                     impacts, after = impacts + 1, after + is_free
                     if impacts > 40 or (rate < 1e-3 and not is_free):
                         return False
-                    if after == 24:
+                    if after == 24:  # the later arcs approach the standing block
+                        self.kept += [self.block.demand(s, 0, 0, 0) for s in (1, -1)]
                         return True
         return True
 
@@ -129,11 +133,15 @@ class Follower:
 
         def fall(time, state):
             return state[0] - 1.5
+
+        def turn(time, state):
+            return state[1]
         impact.terminal, impact.direction, fall.terminal, fall.direction = True, -1, True, 1
         # SciPy sees an event only if the sign has changed at the end of a step: short steps for two impacts.
         longest = 0.004 if times[1] <= self.pieces[-1] else np.inf
         motion = solve_ivp(slope, times, start, method="DOP853", rtol=1e-12, atol=1e-15, dense_output=True,
-                           events=(impact, pass_top, fall), first_step=min(1e-5, times[1] - times[0]), max_step=longest)
+                           events=(impact, pass_top, fall, turn), first_step=min(1e-5, times[1] - times[0]),
+                           max_step=longest)
 
         def demand_at(time):
             return block.demand(side, *motion.sol(time), ground(time))
@@ -147,7 +155,10 @@ class Follower:
                 else:
                     self.kept += self.beyond + found
                     self.beyond = []
+        turned = [state[0] for state in motion.y_events[3]]
+        self.peak = max([self.peak, *np.array([*turned, motion.y[0, -1]]) / block.alpha[side]])
         if motion.t_events[2].size:
+            self.peak = np.inf
             return end, 1.5, 0.0, "fall"
         if motion.t_events[0].size:
             self.kept, self.beyond = self.kept + self.beyond, []
@@ -155,7 +166,7 @@ class Follower:
         return end, *motion.y[:, -1], ""
 
 
-def random_blocks(random, count, two_sided):
+def random_blocks(random, count, two_sided, steepest=0.05):
     rows = []
     for _ in range(count):
         height = random.uniform(0.5, 2)
@@ -163,7 +174,8 @@ def random_blocks(random, count, two_sided):
         row = {"width": width, "height": 2 * height, "restitution": random.uniform(0.2, 0.5)}
         if two_sided:
             row |= {"center_offset": width * random.uniform(-0.15, 0.15), "center_height": height,
-                    "radius_of_gyration": height * random.uniform(0.4, 0.8), "incline": random.uniform(-0.05, 0.05)}
+                    "radius_of_gyration": height * random.uniform(0.4, 0.8),
+                    "incline": random.uniform(-1, 1) * min(steepest, 0.25 * width / height)}
         rows.append(row)
     return rows
 
@@ -175,6 +187,29 @@ def rocker_of(row):
                   row.get("incline", 0.0), row["restitution"])
 
 
+def sudden_pulse(name, length, shape, keys=""):
+    """A pulse that begins at its peak: its keys, its strength over tan alpha, its ground acceleration and its pieces.
+    length: of the pulse, in periods."""
+    def strength(random, least):
+        return {"pga": least * random.uniform(0.8, 6), "pulse_period": random.uniform(0.2, 1.2)}
+
+    def ground(row):
+        return lambda time: row["pga"] * shape(2 * np.pi * time / row["pulse_period"])
+    return f'pulse = "{name}"\n{keys}', strength, ground, lambda row: [0, length * row["pulse_period"]]
+
+
+def sudden_record(folder):
+    """A record whose first sample is the largest one, as above."""
+    times = np.arange(9) * 0.15
+    samples = np.array([1, 0.9, -0.7, -0.8, 0.2, 0.6, -0.3, -0.5, 0])
+    np.savetxt(folder / "sudden.txt", np.column_stack([times, samples]), header="time [s], acceleration [g]")
+
+    def ground(row):
+        return lambda time: row["scale"] * np.interp(time, times, samples)
+    return ('record = "sudden.txt"\nunits = "g"', lambda random, least: {"scale": least * random.uniform(0.8, 6)},
+            ground, lambda row: list(times))
+
+
 @unittest.skipIf(solve_ivp is None, "SciPy is not installed")
 class AContact(Scratch):
     def computed(self, scene, rows):
@@ -183,10 +218,11 @@ class AContact(Scratch):
             [",".join(rows[0]), *(",".join(repr(float(value)) for value in row.values()) for row in rows)]))
         (self.folder / "job.toml").write_text(
             f'[scene]\n{scene}\ngravity = {G}\n[blocks]\ntable = "t.csv"\n[numerics]\nmethod = "taylor"\n'
-            'tolerance = 1e-11\n[output]\nfields = ["region", "friction", "normal", "status"]\n')
+            'tolerance = 1e-11\n[output]\nfields = ["region", "peak", "friction", "normal", "status"]\n')
+        (self.folder / "r.h5").unlink(missing_ok=True)
         self.assert_exit(self.overturn("run", "job.toml", "-o", "r.h5"), 0)
         with h5py.File(self.folder / "r.h5") as file:
-            return {name: file[name][:].ravel() for name in ("region", "friction", "normal", "status")}
+            return {name: file[name][:].ravel() for name in ("region", "peak", "friction", "normal", "status")}
 
     def compare(self, scene, rows, ground_of, pieces_of):
         found = self.computed(scene, rows)
@@ -199,6 +235,7 @@ class AContact(Scratch):
             compared += 1
             with self.subTest(row=row):
                 self.assertEqual(found["status"][number] & 32, 32 * (normal <= 0))
+                self.assertAlmostEqual(found["peak"][number], follower.peak, delta=1e-8)
                 self.assertAlmostEqual(found["normal"][number], normal, delta=1e-8)
                 if np.isfinite(friction):
                     self.assertAlmostEqual(found["friction"][number] / friction, 1, delta=1e-8 / min(normal, 1))
@@ -242,6 +279,40 @@ class AContact(Scratch):
 
     def test_of_blocks_with_two_sides_under_a_record_bears_what_scipy_finds(self):
         self.assertGreater(self.compare_under_a_record(4, True), 5)
+
+    def test_that_lifts_at_a_jump_bears_what_shenton_finds(self):
+        k, accelerations = 4, np.array([1, 0.5, 0.26])  # k: height over width
+        rows = [{"width": 0.5, "height": 2.0, "pulse_period": 0.4, "restitution": 0.8, "pga": a} for a in accelerations]
+        found = self.computed('pulse = "rectangular"', rows)["friction"]
+        np.testing.assert_allclose(found, (accelerations * (4 + k**2) + 3 * k) / (4 * k**2 + 1 + 3 * k * accelerations),
+                                   rtol=1e-14)
+
+    def test_on_a_steep_base_that_lifts_at_a_jump_does_not_leave_it(self):
+        rows = [{"width": 0.5, "height": 2.0, "incline": 0.2, "pulse_period": 0.02, "restitution": 0.5, "pga": 4.95,
+                 "direction": direction} for direction in (180, 0)]
+        found = self.computed('pulse = "rectangular"', rows)
+        # Shenton's force on the inclined base, at the onset for direction 180.
+        np.testing.assert_allclose(found["friction"], [1.700, 0.636], atol=5e-4)
+        self.assertAlmostEqual(found["normal"][0], 0.887, delta=5e-4)
+        self.assertEqual(list(found["status"] & 32), [0, 0])
+
+    def test_under_a_motion_that_begins_with_a_jump_bears_what_scipy_finds(self):
+        count = int(os.environ.get("SUDDEN_ONSETS", 3))
+        motions = [sudden_pulse("rectangular", 0.5, lambda phase: 1.0), sudden_pulse("one_cosine", 1, np.cos),
+                   sudden_pulse("cosine", 2, np.cos, "cycles = 2"), sudden_record(self.folder)]
+        compared = 0
+        for number, (scene, strength, ground, pieces) in enumerate(motions):
+            for two_sided in (False, True):
+                random = np.random.default_rng((number, two_sided))
+                rows = random_blocks(random, count, two_sided, steepest=0.2)
+                for row in rows:
+                    row |= strength(random, row["width"] / row["height"]) | {"direction": random.choice([0, 180])}
+
+                def ground_of(row):
+                    at, sign = ground(row), 1 if row["direction"] == 0 else -1
+                    return lambda time: sign * at(time)
+                compared += self.compare(scene, rows, ground_of, pieces)
+        self.assertGreater(compared, 7 * count)
 
 
 if __name__ == "__main__":

@@ -128,15 +128,22 @@ class Dimensions(Scratch):
             self.assertEqual(result.stderr.count("overturn: warning: "), 1)
             self.assertIn(words, result.stderr)
 
+    def test_in_centimetres_are_refused_before_anything_is_computed(self):
+        wrong = ("--set", "block.width=60", "--set", "block.height=180", "--set", "plane.pga=1", "--set",
+                 "plane.pulse_period=0.5")
+        for command in (("check",), ("run", "-o", "x.h5"), ("history", "-o", "x.h5")):
+            self.assert_exit(self.overturn(*command, "job.toml", *wrong), 65, "0.6 m x 1.8 m?")
+        self.assertFalse((self.folder / "x.h5").exists())
+
     def test_that_look_mistaken_are_computed_with_one_warning(self):
-        wrong = ("--set", "block.width=60", "--set", "block.height=180", "--set",
+        wrong = ("--set", "block.width=20", "--set", "block.height=60", "--set",
                  "plane.pga={ first = 1, last = 4, count = 3 }", "--set", "plane.pulse_period=0.5")
         for command in (("run",), ("boundary",), ("history", "--at", "pga=1")):
             result = self.overturn(*command[:1], "job.toml", "-o", f"{command[0]}.h5", *wrong,
                                    *command[1:])
             self.assert_exit(result, 0)
             self.assertEqual(result.stderr.count("overturn: warning: "), 1)
-            self.assertIn("R = 94.87 m is outside 0.02 to 10 m (lengths are in metres)",
+            self.assertIn("R = 31.62 m is outside 0.02 to 10 m (lengths are in metres)",
                           result.stderr)
 
     def test_are_found_by_value_in_xarray(self):

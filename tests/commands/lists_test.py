@@ -162,7 +162,7 @@ class Lists(Scratch):
         self.compute("job.toml", "list.h5")
         (self.folder / "statues.csv").write_text(STATUES.replace("1.8", "1.9"))
         self.assert_exit(self.overturn("run", "job.toml", "-o", "list.h5"), 74,
-                         "belongs to another job", "checksum")
+                         'belongs to another job: the table "statues.csv" has changed since then')
 
     def refused(self, table, *phrases, command=("check", "job.toml"), code=65):
         (self.folder / "statues.csv").write_text(table)

@@ -29,13 +29,27 @@ class Toppling(Scratch):
 
     def test_of_a_statue_is_answered_in_a_few_lines(self):
         text = self.topple(*PULSE, "--pga", "0.4")
-        for words in ("does not topple at 0.4 g", "0.8868 degrees, 4.81 % of alpha",
+        for words in ("does not topple at 0.4 g; topples at 0.9034 g (126 % more)\n", "0.8868 degrees, 4.81 % of alpha",
                       "lifts from   0.3333 g",
                       "1.1113 to 1.6445 g, above 2.1296 g, searched up to 5 g"):
             self.assertIn(words, text)
         self.assertLess(len(text.splitlines()), 17)
         self.assertIn("verdict      topples at 1.2 g",
                       self.topple(*PULSE, "--pga", "1.2", "--restitution-of-maximum", "0.9"))
+
+    def test_of_a_near_miss_says_how_near_it_is(self):
+        for wanted, *words in (("does not topple at 1.975 times the record, 0.7900 g; topples at 1.979 times the record "
+                                "(0.2 % more) and at 1.843 times the record (6.7 % less)\n", *RECORD, "--scale", "1.975"),
+                               ("does not topple at 0.9016 g; topples at 0.9034 g (0.2 % more)\n", *PULSE, "--pga", "0.9016")):
+            self.assertIn(f"verdict      {wanted}", self.topple(*words, "--pga-max", "1.2"))
+        answer = self.answer(*PULSE, "--pga", "0.9016", "--restitution-of-maximum", "0.9", "--pga-max", "1.2")
+        self.assertEqual(answer["verdict"], "does not topple at 0.9016 g; topples at 1.1113 g (23 % more); with r = r_max, "
+                                            "it topples at 0.9034 g (0.2 % more)")
+        self.assertIsNone(answer["toppling_pga_below"])
+        self.assertEqual(answer["toppling_pga_above"], answer["toppling_pga"][0][0])
+        self.assertEqual([each["toppling_pga_above"] for each in answer["by_restitution"]],
+                         [None if not each["toppling_pga"] else each["toppling_pga"][0][0]
+                          for each in answer["by_restitution"]])
 
     def test_states_the_friction_that_it_needs(self):
         self.assertIn("friction     the verdict holds if the coefficient is at least 0.46", self.topple(*PULSE, "--pga", "0.9"))
@@ -68,7 +82,7 @@ class Toppling(Scratch):
     def test_knows_the_friction_at_the_lower_ends_of_ranges(self):
         # At an end itself, the margin may be too close to zero to be settled.
         for words in (("--width", "0.8", "--height", "2", "--center-offset", "0.1", "--center-height", "0.9", "--period",
-                       "0.6"), ("--width", "60", "--height", "180", "--period", "50")):
+                       "0.6"), ("--width", "6", "--height", "18", "--period", "15.8114")):
             needed = self.answer(*words)["friction_to_topple"]
             self.assertTrue(needed and all(0.3 < friction < 1 for friction in needed), needed)
 
@@ -119,7 +133,14 @@ class Toppling(Scratch):
         self.assertIn("does not topple at 1.5 times the record, 0.6000 g", text)
         self.assertIn("synthetic.AT2: 2001 samples, 20 s, 0.4 g", text)
         self.assertIn("ranges narrower than the steps of 0.5 % may be missed", text)
-        self.assertTrue(self.answer(*RECORD, "--pga", "0.9")["narrower_ranges_exist"])
+        answer = self.answer(*RECORD, "--pga", "0.9")
+        self.assertTrue(answer["narrower_ranges_exist"])
+        intervals, ranges = answer["toppling_intervals"], answer["toppling_pga"]
+        self.assertTrue(len(ranges) > 6 == len(intervals))
+        self.assertEqual(intervals[-1], {"first": ranges[-1][0], "last": None, "share": 1})
+        for interval in intervals[:-1]:
+            inside = [last - first for first, last in ranges[:-1] if interval["first"] <= first and last <= interval["last"]]
+            self.assertAlmostEqual(interval["share"], sum(inside) / (interval["last"] - interval["first"]), places=12)
 
     def test_under_a_record_ends_its_safe_ranges_at_safe_accelerations(self):
         generator = np.random.default_rng(5)
@@ -306,6 +327,13 @@ class Toppling(Scratch):
         self.assert_exit(self.overturn("topple", *PULSE, "--pga", "0.4",
                                        shell_setup="exec > /dev/full"), 74, "cannot write to stdout")
 
+    def test_of_a_pattern_that_matches_one_file_is_that_of_the_file(self):
+        (self.folder / "d [1]").mkdir()
+        (self.folder / "d [1]" / "a.AT2").write_text("PEER\nA, 1\nIN UNITS OF G\nNPTS= 4, DT= .1\n0 1 1 0\n")
+        texts = [self.topple(*STATUE, "--record", f"d [1]/{name}") for name in ("a.AT2", "*.AT2")]
+        self.assertIn("topples", texts[0])
+        self.assertEqual(texts[0], texts[1])
+
     def test_writes_a_history_with_the_settled_verdict_of_a_motion_too_sensitive_for_doubles(self):
         # The search ends at the requested acceleration.
         for size, scale, verdict in (("1.28607", "1.268662", "topples"),  # although the curve stays upright
@@ -332,7 +360,7 @@ class Toppling(Scratch):
                              65, "second_component", "is zero at all times")
 
     def test_warns_of_other_units(self):
-        for wrong, words in ((("--width", "62", "--height", "210", "--period", "0.5"), "R = 109"),
+        for wrong, words in ((("--width", "20", "--height", "60", "--period", "0.5"), "R = 31.62"),
                              ((*STATUE, "--period", "600"), "the period of the pulse = 600 s"),
                              ((*PULSE, "--pga", "40"), "the peak ground acceleration = 40 g"),
                              ((*PULSE, "--restitution", "0.9"), "r = 0.9 is above r_max = 0.7225")):
@@ -365,6 +393,8 @@ class Toppling(Scratch):
         self.assert_exit(self.overturn("topple", *PULSE, "--restitution", "1.2"), 65,
                          "outside (0, 1]")
         self.assert_exit(self.overturn("topple", *PULSE, "--pulse", "sinus"), 65, "is unknown")
+        self.assert_exit(self.overturn("topple", "--width", "42", "--height", "155", "--period", "0.5"), 65,
+                         "Lengths are in metres: 0.42 m x 1.55 m?")
         self.assert_exit(self.overturn("topple", *STATUE, "--record", "none\n\"\\.AT2"), 65,
                          "none \"\\.AT2: cannot be read")
 

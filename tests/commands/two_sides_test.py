@@ -68,6 +68,36 @@ class TwoSides(Scratch):
             np.testing.assert_allclose(ends, flips, rtol=0, atol=2e-8)
             self.assertEqual(answer["undecided_pga"], [])
 
+    def test_are_computed_in_both_directions_unless_one_is_asked_for(self):
+        for name, strengths in (("leaning", (0.45, 0.7)), ("eccentric", (0.4, 0.5))):
+            options = [f"--{key.replace('_', '-')}={value}" for key, value in BLOCKS[name][0].items()]
+            for pga in strengths:
+                toppling = {direction for direction in (0, 180)
+                            if sum(flip < pga for flip in FLIPS[name, direction]) % 2 == 1}
+                result = self.overturn("topple", *options, "--period=0.5", f"--pga={pga}", "--pga-max=1.2", "--json")
+                answer = json.loads(result.stdout)
+                self.assertEqual(answer["warnings"], [])
+                self.assertEqual({each["direction"] for each in answer["by_direction"] if each["topples"]}, toppling)
+                self.assertEqual(sorted(each["direction"] for each in answer["by_direction"]), [0, 180])
+                self.assertEqual(answer["topples"], bool(toppling))
+                self.assertTrue(answer["direction"] in toppling or not toppling)
+                self.assertEqual(answer | answer["by_direction"][0], answer)  # the worse one is first
+                self.assertIn(f" at {pga} g in direction {answer['direction']}, worse than "
+                              f"{180 - answer['direction']}", answer["verdict"])
+
+    def test_say_which_direction_is_worse_and_write_its_history(self):
+        options = [f"--{key.replace('_', '-')}={value}" for key, value in BLOCKS["eccentric"][0].items()]
+        options += ["--period=0.5", "--pga=0.5", "--pga-max=1.2"]
+        result = self.overturn("topple", *options, "--history", "both.h5")
+        self.assert_exit(result, 0, "directions 0 and 180 degrees",
+                         "verdict topples at 0.5 g in direction 180, worse than 0 "
+                         "does not topple at 0.5 g in direction 0; topples at 0.6863 g (37 % more)",
+                         "both.h5: written, the motion in direction 180; draw it with")
+        self.assertEqual(result.stderr, "")
+        self.assert_exit(self.overturn("topple", *options, "--direction=180", "--history", "one.h5"), 0)
+        with h5py.File(self.folder / "both.h5") as both, h5py.File(self.folder / "one.h5") as one:
+            np.testing.assert_array_equal(both["angle"][:], one["angle"][:])
+
     def test_are_resolved_beside_their_flips_in_spectra_and_tables(self):
         for number, (block, direction, flips, _) in enumerate(cases()):
             pga = sorted(flip + step for flip in flips for step in (-1e-11, 1e-11))
@@ -106,7 +136,7 @@ class TwoSides(Scratch):
             result = self.overturn("check", "job.toml", "--set", f"plane.direction={direction}")
             self.assertNotIn("warning", result.stderr)
         result = self.overturn("check", "job.toml", "--set", "plane.direction=0", "--set",
-                               "plane.radius_of_gyration=60")
+                               "plane.radius_of_gyration=6")
         self.assertIn("the radius of gyration", result.stderr)
         (self.folder / "blocks.csv").write_text("width,height,centre_offset,lean,restitution\n0.5,2,0.1,4,0.8\n")
         (self.folder / "table.toml").write_text(
@@ -159,10 +189,26 @@ class TwoSides(Scratch):
     def test_are_described_by_check_and_info(self):
         self.write(LEANING, "pulse_period = 0.5\npga = { first = 0.1, last = 1, count = 5 }")
         self.assert_exit(self.overturn("check", "job.toml"), 0, "alpha = 10.04 degrees (+), 18.04 degrees (-)",
-                         "R = 1.031 m (+), 1.031 m (-)", "p = 2.672 1/s (+), 2.672 1/s (-)", "r_max = 0.8313")
+                         "incline 4 degrees", "R = 1.031 m (+), 1.031 m (-)", "p = 2.672 1/s (+), 2.672 1/s (-)",
+                         "r_max = 0.8313")
         self.assert_computes("run", "run.h5")
         self.assert_exit(self.overturn("info", "run.h5"), 0)
         self.assert_exit(self.overturn("verify", "run.h5"), 0)
+
+    def test_need_more_friction_than_any_if_the_base_would_have_to_pull(self):
+        block = "size_plus = 1, size_minus = 0.7, slenderness_plus = 0.3, slenderness_minus = 0.2, radius_of_gyration = 0.6"
+        for share, impact in (("1.0", "an impact 0.202 to 0.626"),
+                              ("0.1", "an impact from 0.628 to more than any, since the base would have to pull")):
+            (self.folder / "rock.toml").write_text(f'scene.pulse = "one_sine"\nblock = {{ {block} }}\n[plane]\n'
+                                                   f"pulse_period = 0.5\npga = 1\nrestitution_of_maximum = {share}\n")
+            self.assert_exit(self.overturn("check", "rock.toml"), 0,
+                             f"lifting needs a friction coefficient of 0.37 to 1.15 (b / h), {impact}")
+    def test_that_imply_an_incline_are_described_with_it(self):
+        self.write({"slenderness_plus": 0.3, "slenderness_minus": 0.2, "size_plus": 1, "size_minus": 0.7,
+                    "radius_of_gyration": 0.6}, "pulse_period = 0.5\npga = 0.3\ndirection = 0")
+        result = self.overturn("check", "job.toml")
+        self.assert_exit(result, 0, "incline 31.78 degrees")
+        self.assertIn("the incline that the angles and distances imply = 31.78 degrees is outside", result.stderr)
 
     def test_are_refused_with_what_to_do(self):
         self.write(LEANING, "pulse_period = 0.5\npga = 0.5")

@@ -1,9 +1,13 @@
 #include "commands/verdict_ranges.hpp"
+#include "support/random_record.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <random>
 
 namespace overturn {
@@ -73,6 +77,118 @@ TEST(VerdictRanges, AreRoundedOutwardsSoThatWhatIsOutsideIsSafe)
     EXPECT_EQ(rounded_down(0.3333, 4), 0.3333);
     EXPECT_EQ(rounded_down(0.33339, 4), 0.3333);
     EXPECT_EQ(rounded_down(-0.33331, 4), -0.3334);
+}
+
+/// Up to 200 ranges between 0.3 and 3 g, some of them thin, that topple or are undecided, with safe
+/// ones between them.
+VerdictRanges random_ranges(std::mt19937_64& generator)
+{
+    std::uniform_real_distribution<double> uniform(0, 1);
+    VerdictRanges ranges{.all = {{0, 0.3, safe}}, .lifting = 0.3};
+    const int count = int(200 * uniform(generator));
+    for (int i = 0; i < count; ++i) {
+        const double first = ranges.all.back().last;
+        const double width = 2.7 / count * uniform(generator);
+        ranges.all.push_back({first, first + width * uniform(generator),
+                              uniform(generator) < 0.8 ? topples : undecided});
+        ranges.all.push_back({ranges.all.back().last, first + width, safe});
+    }
+    if (uniform(generator) < 0.5) {
+        ranges.all.push_back({ranges.all.back().last, 5, topples});
+    }
+    return ranges;
+}
+
+TEST(VerdictRanges, ThatAreThinAreShownAsTheShareOfAnInterval)
+{
+    std::vector<VerdictRange> all{{0, 0.5, safe}};
+    for (int i = 0; i < 100; ++i) { // a quarter of 0.5 to 0.7 g, and half of 0.9 to 1.1 g
+        const double first = i < 50 ? 0.5 + 0.004 * i : 0.9 + 0.004 * (i - 50);
+        const double last = first + (i < 50 ? 0.001 : 0.002);
+        all.back().last = first;
+        all.push_back({first, last, topples});
+        all.push_back({last, last, safe});
+    }
+    all.back().last = 2;
+    all.push_back({2, 5, topples});
+    EXPECT_EQ((VerdictRanges{.all = all}.text(4, 3)),
+              "25 % of 0.5000 to 0.6970 g, 51 % of 0.9000 to 1.0980 g, above 2.0000 g, searched "
+              "up to 5 g");
+}
+
+TEST(VerdictRanges, AreCoveredByFewIntervalsWithTheirShares)
+{
+    std::mt19937_64 generator(4);
+    for (int i = 0; i < 100; ++i) {
+        const VerdictRanges ranges = random_ranges(generator);
+        for (const Verdict verdict : {topples, undecided}) {
+            const auto intervals = ranges.intervals(verdict, 6);
+            EXPECT_LE(intervals.size(), 6u);
+            double shown = 0;
+            for (std::size_t j = 0; j < intervals.size(); ++j) {
+                shown += intervals[j].share * (intervals[j].last - intervals[j].first);
+                EXPECT_GT(intervals[j].first, j > 0 ? intervals[j - 1].last : 0);
+            }
+            double all = 0;
+            for (const VerdictRange& range : ranges.with(verdict)) {
+                all += range.last - range.first;
+                EXPECT_TRUE(std::ranges::any_of(intervals, [&](const VerdictInterval& interval) {
+                    return interval.first <= range.first && range.last <= interval.last;
+                }));
+            }
+            EXPECT_NEAR(shown, all, 1e-13); // 200 roundings of widths below 5
+        }
+        // Nothing is hidden in what topples up to the end of the search.
+        if (ranges.all.back().verdict == topples) {
+            EXPECT_EQ(ranges.intervals(topples, 6).back().first, ranges.all.back().first);
+        }
+    }
+}
+
+TEST(VerdictRanges, KnowTheNearestOnesOnBothSides)
+{
+    std::mt19937_64 generator(5);
+    std::uniform_real_distribution<double> uniform(0.2, 4);
+    for (int i = 0; i < 100; ++i) {
+        const VerdictRanges ranges = random_ranges(generator);
+        const double pga = uniform(generator);
+        for (const Verdict verdict : {topples, undecided}) {
+            std::optional<double> below, above;
+            for (const VerdictRange& range : ranges.with(verdict)) {
+                for (const double end : {range.first, range.last}) {
+                    below = end <= pga && end > below.value_or(0) ? end : below;
+                    above = end >= pga && end < above.value_or(9) ? end : above;
+                }
+            }
+            const bool has_it = ranges.verdict_at(pga) == verdict;
+            EXPECT_EQ(ranges.nearest_below(verdict, pga), has_it ? pga : below);
+            EXPECT_EQ(ranges.nearest_above(verdict, pga), has_it ? pga : above);
+        }
+    }
+}
+
+TEST(VerdictRanges, UnderARecordAreSearchedInSmallStepsNextToTheAskedAcceleration)
+{
+    std::mt19937_64 generator(6);
+    int toppling = 0;
+    for (int i = 0; i < 20; ++i) {
+        // Long records, under which toppling ranges are thin.
+        const Accelerogram record = random_record(generator, 1000, Directions::horizontal);
+        Scene scene;
+        scene.records = {std::make_shared<const Accelerogram>(record)};
+        const BoundaryLine line{.point = {{0.3, 0.85}, 1, 1000 / 50.0}, .unit = record.peak()};
+        const double asked = std::tan(0.3) * (1.5 + 0.05 * i);
+        const VerdictRanges ranges =
+            verdict_ranges(scene, line, 0.97 * asked, 1.03 * asked, asked, nullptr);
+        for (int k = -20; k <= 20; ++k) {
+            const double pga = asked * (1 + 0.001 * k);
+            if (is_unsafe(boundary_on(scene, line, {pga}, widest_kernel()).region_at_first)) {
+                EXPECT_NE(ranges.verdict_at(pga), safe) << i << ": " << pga;
+                ++toppling;
+            }
+        }
+    }
+    EXPECT_GT(toppling, 50);
 }
 
 TEST(VerdictRanges, HaveEnoughDecimalsForTheRequestedAcceleration)

@@ -7,6 +7,7 @@
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/text/error.hpp"
 
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,6 +23,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Lt;
+using testing::Not;
 using testing::SizeIs;
 
 /// Returns the message with which the file at `path` is refused; empty if it is accepted.
@@ -108,6 +110,68 @@ TEST_F(ExistingResult, ReportsThatAnotherJobIsLonger)
     job.resolved += "one more line\n";
     EXPECT_THAT(refusal(path, job), AllOf(HasSubstr("line 4"), HasSubstr("(nothing more)"),
                                           HasSubstr("one more line")));
+}
+
+/// The resolved job of a suite of records and a table.
+std::string job_of(const std::vector<std::string>& records, const std::string& rows = "3",
+                   const std::string& columns = "\"width\", \"height\"",
+                   const std::string& checksum = "01")
+{
+    return fmt::format("title = \"\"\n\n[scene]\nrecord = [\n{}]\ntheory = \"nonlinear\"\n\n"
+                       "[blocks]\ntable = \"blocks.csv\"\nrows = {}\ncolumns = [{}]\n"
+                       "checksum = \"{}\"\n\n[plane]\nscale = 1\n",
+                       fmt::join(records, ""), rows, columns, checksum);
+}
+
+std::string record_line(const std::string& name, int samples = 100)
+{
+    return fmt::format("    {{ file = \"{}\", component = \"\", samples = {} }},\n", name, samples);
+}
+
+TEST_F(ExistingResult, NamesTheTableThatHasChanged)
+{
+    job.resolved = job_of({record_line("a")});
+    create();
+    for (const std::string& other :
+         {job_of({record_line("a")}, "4"), job_of({record_line("a")}, "3", "\"width\""),
+          job_of({record_line("a")}, "3", "\"width\", \"height\"", "02")}) {
+        job.resolved = other;
+        EXPECT_THAT(refusal(path, job), AllOf(HasSubstr("the table \"blocks.csv\" has changed"),
+                                              HasSubstr("Restore it"), Not(HasSubstr("--set"))));
+    }
+}
+
+TEST_F(ExistingResult, NamesTheRecordThatIsAnother)
+{
+    const std::vector<std::string> records{record_line("a"), record_line("b"), record_line("c"),
+                                           record_line("d")};
+    job.resolved = job_of(records);
+    create();
+    const auto expect = [&](const std::vector<std::string>& given, const std::string& words) {
+        job.resolved = job_of(given);
+        EXPECT_THAT(refusal(path, job),
+                    AllOf(HasSubstr(words), HasSubstr("Restore"), Not(HasSubstr("--set"))));
+    };
+    const auto others = [](const std::string& was, const std::string& is) {
+        return fmt::format("the first that differs was {}, and is {} in", was, is);
+    };
+    const std::string names[] = {"\"a\"", "\"b\"", "\"c\"", "\"d\"", "none"};
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        std::vector<std::string> changed = records;
+        changed[i] = record_line(std::string(1, char('a' + i)), 101);
+        expect(changed, fmt::format("the record {} has changed", names[i]));
+        changed[i] = record_line("e");
+        expect(changed, others(names[i], "\"e\""));
+        std::vector<std::string> fewer = records;
+        fewer.erase(fewer.begin() + std::ptrdiff_t(i));
+        expect(fewer, others(names[i], names[i + 1]));
+        std::vector<std::string> more = records;
+        more.insert(more.begin() + std::ptrdiff_t(i), record_line("e"));
+        expect(more, others(names[i], "\"e\""));
+    }
+    std::vector<std::string> more = records;
+    more.push_back(record_line("e"));
+    expect(more, others("none", "\"e\""));
 }
 
 TEST_F(ExistingResult, ShowsOnlyTheDifferingPartOfALongLine)

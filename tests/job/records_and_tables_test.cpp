@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <random>
 
 namespace overturn {
@@ -146,6 +147,85 @@ TEST_F(Motions, OfOneComponentAreNamedByTheirVerticalMotions)
     write_components("a.V2A", {"N", "E", "Up"});
     EXPECT_EQ(names_of(plane("record = ['a.V2A', 'a.V2A']\nvertical = ['E', 'Up']")),
               (std::vector<std::string>{"a.V2A:N:E", "a.V2A:N:Up"}));
+}
+
+using Patterns = JobWithFiles;
+
+/// Names of folders that are also patterns, of which most do not match themselves.
+const Names folders_like_patterns{"d [1]",
+                                  "[ab]",
+                                  "[!a]",
+                                  "[a-z] 1",
+                                  "x[",
+                                  "]x[",
+                                  "[]",
+                                  "[[]",
+                                  "[[:alpha:]]",
+                                  "*",
+                                  "a*b",
+                                  "?",
+                                  "a?",
+                                  "**",
+                                  "Kobe [NS] (1995)",
+                                  "[1] [2]",
+                                  "a\\b [1]",
+                                  "\\*",
+                                  "\\[1]",
+                                  "{a,b} [1]",
+                                  "[1]/[2]",
+                                  "a [1]/b/c [2]"};
+
+TEST_F(Patterns, MayContainFoldersWhoseNamesArePatterns)
+{
+    for (const std::string& name : folders_like_patterns) {
+        std::filesystem::create_directories(folder_ / name);
+        write_record(name + "/b.AT2", "0 1 0");
+        write_record(name + "/a.AT2", "0 2 0");
+        const Names both{name + "/a.AT2", name + "/b.AT2"};
+        EXPECT_EQ(names_of(plane("record = '" + name + "/*.AT2'")), both);
+        EXPECT_EQ(names_of(plane("record = '" + name + "/[ab].AT2'")), both);
+        EXPECT_EQ(names_of(plane("record = '" + name + "/a.AT2'")), Names{both[0]});
+        EXPECT_EQ(names_of(plane("record = '" + name + "/a.A*'")), Names{both[0]});
+        const std::string absolute = folder_ / name;
+        EXPECT_EQ(names_of(plane("record = '" + absolute + "/*.AT2'")),
+                  (Names{absolute + "/a.AT2", absolute + "/b.AT2"}));
+        EXPECT_EQ(names_of(plane("record = '" + name + "/a.AT2'\nvertical = '" + name + "/b.AT2'")),
+                  Names{both[0]});
+    }
+}
+
+TEST_F(Patterns, MayBeInTheFolderOfAJobWhoseNameIsAPattern)
+{
+    for (const std::string& name : folders_like_patterns) {
+        std::filesystem::create_directories(folder_ / name);
+        write_record(name + "/a.AT2", "0 1 0");
+        const Job job = read_job_text("[scene]\nrecord = '*.AT2'\n[plane]\nscale = 1\nsize = 1\n"
+                                      "slenderness = 0.2\nrestitution = 0.9\n",
+                                      folder_ / name + "/job.toml");
+        EXPECT_EQ(names_of(job), Names{"a.AT2"}) << name;
+    }
+}
+
+TEST_F(Patterns, MatchOtherFoldersIfTheOneOfTheirNameHasNoSuchFile)
+{
+    for (const char* name : {"d [1]", "d 1"}) {
+        std::filesystem::create_directories(folder_ / name);
+    }
+    write_record("d 1/a.AT2", "0 1 0");
+    EXPECT_EQ(names_of(plane("record = 'd [1]/*.AT2'")), Names{"d 1/a.AT2"});
+    write_record("d [1]/b.AT2", "0 1 0");
+    EXPECT_EQ(names_of(plane("record = 'd [1]/*.AT2'")), Names{"d [1]/b.AT2"});
+}
+
+TEST_F(Patterns, WithoutFilesAreRefusedWithTheWayToWriteACharacterItself)
+{
+    std::filesystem::create_directories(folder_ / "e/d [1]");
+    write_record("e/d [1]/a.AT2", "0 1 0");
+    EXPECT_THAT(refusal(exit_code::job, [&] { plane("record = '*/d [1]/*.AT2'"); }),
+                HasSubstr("scene.record = \"*/d [1]/*.AT2\" matches no file. It is relative to the "
+                          "job file, and a pattern: write [*], [?] and [[] for *, ? and [ "
+                          "themselves."));
+    EXPECT_EQ(names_of(plane("record = '*/d [[]1]/*.AT2'")), Names{"e/d [1]/a.AT2"});
 }
 
 TEST_F(Motions, HaveASecondComponentOfTheSameFileOrOfAnother)
@@ -430,6 +510,53 @@ TEST_F(Motions, AreNotVerticalAndHorizontalAtOnce)
                 HasSubstr("has the accelerations of the horizontal component"));
     EXPECT_THAT(refusal(exit_code::job, [&] { plane("record = \"a.AT2\"\nvertical = \"a.AT2\""); }),
                 HasSubstr("has the accelerations of the horizontal component"));
+}
+
+TEST_F(Motions, AreThoseOfTheGroundUnlessTheJobOrAFileSaysOtherwise)
+{
+    write_record("a.AT2", "0 1 0");
+    write("floor.txt", "# motion_of = floor\n0 0\n1 1\n");
+    write("ground.txt", "# motion_of = ground\n0 0\n1 1\n");
+    const auto motion_of = [&](const std::string& scene) {
+        return plane(scene).problem.scene.motion_of;
+    };
+    EXPECT_EQ(motion_of("record = 'a.AT2'"), MotionOf::ground);
+    EXPECT_EQ(motion_of("record = 'ground.txt'\nunits = 'g'"), MotionOf::ground);
+    EXPECT_EQ(motion_of("record = 'a.AT2'\nmotion_of = 'floor'"), MotionOf::floor);
+    EXPECT_EQ(motion_of("record = 'floor.txt'\nunits = 'g'"), MotionOf::floor);
+    EXPECT_EQ(motion_of("record = 'floor.txt'\nunits = 'g'\nmotion_of = 'floor'"), MotionOf::floor);
+}
+
+TEST_F(Motions, OfAFloorAreStatedInTheResolvedJob)
+{
+    write("floor.txt", "# motion_of = floor\n# ground_pga = 0.25\n0 0\n1 1\n");
+    const Job floor = plane("record = 'floor.txt'\nunits = 'g'");
+    EXPECT_THAT(floor.resolved, HasSubstr("\nmotion_of = \"floor\"\n"));
+    EXPECT_THAT(floor.resolved, HasSubstr(", ground_pga = 0.25, "));
+    write_record("a.AT2", "0 1 0");
+    EXPECT_THAT(plane("record = 'a.AT2'").resolved, testing::Not(HasSubstr("motion_of")));
+}
+
+TEST_F(Motions, AreRefusedIfAFileContradictsTheJob)
+{
+    write("floor.txt", "# motion_of = floor\n0 0\n1 1\n");
+    EXPECT_THAT(refusal(exit_code::job,
+                        [&] { plane("record = 'floor.txt'\nunits = 'g'\nmotion_of = 'ground'"); }),
+                HasSubstr("job.toml:4:13: scene.motion_of = \"ground\", but the file \"floor.txt\" "
+                          "states motion_of = floor. Remove the key, or correct the file."));
+}
+
+TEST_F(Motions, OfAFloorAndOfTheGroundAreRefusedInOneJob)
+{
+    write("floor.txt", "# motion_of = floor\n0 0\n1 1\n");
+    write("other.txt", "0 0\n1 2\n");
+    EXPECT_THAT(
+        refusal(exit_code::job, [&] { plane("record = ['floor.txt', 'other.txt']\nunits = 'g'"); }),
+        HasSubstr("job.toml:2:10: scene.record: \"floor.txt\" is the motion of a floor, but "
+                  "\"other.txt\" does not state that it is one."));
+    EXPECT_EQ(plane("record = ['floor.txt', 'other.txt']\nunits = 'g'\nmotion_of = 'floor'")
+                  .problem.scene.motion_of,
+              MotionOf::floor);
 }
 
 TEST_F(Motions, OfAFileWhoseNameIsAPatternAreFound)

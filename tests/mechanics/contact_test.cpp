@@ -159,8 +159,13 @@ TEST(FrictionOfAnImpact, OfABoxAtTheLargestRestitutionHasAClosedForm)
 TEST(FrictionOfAnImpact, IsThatOfTheChangeOfMomentum)
 {
     std::mt19937_64 generator(7);
+    int pulling = 0;
+    int outside = 0;
     for (int i = 0; i < 200; ++i) {
-        const Block<double> block = random_block(generator);
+        Block<double> block = random_block(generator);
+        if (i % 2 == 1) { // steeply inclined: the foot is often outside the base
+            block.size *= 0.6;
+        }
         const ContactSides<double> sides(block, 0.5);
         // Velocities of the centre of mass before and after, along the base towards the corner j
         // and upwards: omega times the distances from the corners.
@@ -172,10 +177,22 @@ TEST(FrictionOfAnImpact, IsThatOfTheChangeOfMomentum)
         const double along = block.size * here.height * (before - after);
         const double upward =
             block.other.size * there.distance * after + block.size * here.distance * before;
-        EXPECT_NEAR(friction_of_impact(block, sides.plus, sides.minus), along / upward, 1e-13);
-        EXPECT_NEAR(friction_to_lift(sides.plus, block.slenderness), here.distance / here.height,
-                    1e-15);
+        pulling += upward <= 0;
+        outside += here.distance < 0;
+        if (upward > 0) {
+            // The relative rounding of the difference `along` and of `upward`.
+            const double expected = std::abs(along) / upward;
+            EXPECT_NEAR(friction_of_impact(block, sides.plus, sides.minus), expected,
+                        1e-14 * (1 + expected) * (1 + before / upward));
+        } else {
+            EXPECT_EQ(friction_of_impact(block, sides.plus, sides.minus),
+                      std::numeric_limits<double>::infinity());
+        }
+        EXPECT_NEAR(friction_to_lift(sides.plus, block.slenderness),
+                    std::abs(here.distance) / here.height, 1e-15);
     }
+    EXPECT_GE(pulling, 3);
+    EXPECT_GE(outside, 20);
 }
 
 TEST(ContactForce, OnAnArcIsThatOfTheSameMotion)

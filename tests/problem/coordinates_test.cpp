@@ -308,6 +308,25 @@ TEST(TwoSides, AreThoseOfTheShapeAndTheMassOfTheBlock)
     }
 }
 
+TEST(TwoSides, GivenByAnglesAndDistancesImplyTheInclineOfTheBase)
+{
+    std::mt19937_64 generator(62);
+    for (int i = 0; i < 50; ++i) {
+        const Body body = random_body(generator);
+        const Block<double> block = body.block(0.5);
+        const std::vector<Given> surveyed{number("slenderness_plus", block.slenderness),
+                                          number("slenderness_minus", block.other.slenderness),
+                                          number("size_plus", block.size),
+                                          number("size_minus", block.other.size),
+                                          number("radius_of_gyration", body.gyration),
+                                          number("restitution", 0.5),
+                                          number("pga", 0.6),
+                                          number("pulse_period", 0.5)};
+        // A few roundings of lengths of 1 m over a base of at least 0.2 m.
+        EXPECT_NEAR(value_of({}, grid_of({}, surveyed), "incline"), body.incline, 1e-14);
+    }
+}
+
 TEST(TwoSides, ThatAreEqualGiveTheSymmetricBlock)
 {
     const std::vector<Given> box{number("width", 0.5), number("height", 2.0),

@@ -2,12 +2,14 @@
 
 #include "support/given_values.hpp"
 #include "support/random_record.hpp"
+#include "support/two_sides.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <random>
 
 namespace overturn {
@@ -72,8 +74,7 @@ TEST(Plausibility, OfOtherUnitsNamesTheQuantity)
     };
     std::mt19937_64 generator(2);
     for (const OtherUnit& unit :
-         {OtherUnit{{"width", "height"}, 100, "R = "}, OtherUnit{{"width", "height"}, 1000, "R = "},
-          OtherUnit{{"width", "height"}, 0.001, "R = "},
+         {OtherUnit{{"width", "height"}, 45, "R = "}, OtherUnit{{"width", "height"}, 0.001, "R = "},
           OtherUnit{{"pga"}, 981, "the peak ground acceleration = "},
           OtherUnit{{"pga"}, 100, "the peak ground acceleration = "},
           OtherUnit{{"pulse_period"}, 1000, "the period of the pulse = "},
@@ -135,8 +136,8 @@ TEST(Plausibility, OneRowOfATableIsEnough)
     for (int i = 0; i < 50; ++i) {
         Columns columns = random_blocks(generator, 20);
         const std::size_t row = generator() % 20;
-        columns["width"][row] *= 100;
-        columns["height"][row] *= 100;
+        columns["width"][row] *= 0.01;
+        columns["height"][row] *= 0.01;
         EXPECT_THAT(found_in(columns), HasSubstr("R = "));
     }
 }
@@ -316,6 +317,39 @@ TEST(Plausibility, OfALeaningBlockExpectsRadiansAndACentreWithinTheBlock)
         HasSubstr("center_height = 1.9 m is above the top of the block, which is 1.8 m high"));
 }
 
+TEST(Plausibility, OfAnglesAndDistancesJudgesTheInclineThatTheyImply)
+{
+    const auto found = [](const Body& body) {
+        const Block<double> block = body.block(0.5);
+        return implausible_values(
+            {},
+            grid_of({},
+                    {number("slenderness_plus", block.slenderness),
+                     number("slenderness_minus", block.other.slenderness),
+                     number("size_plus", block.size), number("size_minus", block.other.size),
+                     number("radius_of_gyration", body.gyration), number("restitution", 0.5),
+                     number("pga", 0.3), number("pulse_period", 0.5), number("direction", 180)}));
+    };
+    std::mt19937_64 generator(38);
+    for (int i = 0; i < 50; ++i) {
+        Body body{0.3, 0.25, 1, 0.6};
+        std::uniform_real_distribution<double> degrees(i % 2 == 0 ? -9.9 : 10.1,
+                                                       i % 2 == 0 ? 9.9 : 13.0);
+        body.incline = degrees(generator) * std::numbers::pi / 180;
+        if (i % 4 == 3) {
+            body = body.mirrored();
+        }
+        if (i % 2 == 0) {
+            EXPECT_THAT(found(body), IsEmpty());
+        } else {
+            EXPECT_THAT(found(body),
+                        HasSubstr(fmt::format("the incline that the angles and distances imply = "
+                                              "{:.4g} degrees is outside -10 to 10 degrees",
+                                              body.incline * 180 / std::numbers::pi)));
+        }
+    }
+}
+
 TEST(Plausibility, OfAVerticalRecordThatContainsGravityFindsIt)
 {
     std::mt19937_64 generator(36);
@@ -355,7 +389,7 @@ TEST(Plausibility, OfTheRadiusOfGyrationAndOfTheDirectionIsJudged)
             {"pulse_period", {0.5}},   {"restitution", {0.5}}, {"radius_of_gyration", {gyration}},
             {"incline", {0.05}},       {"direction", {180}}};
         EXPECT_THAT(found_in(columns), IsEmpty());
-        columns["radius_of_gyration"] = {gyration * (i % 2 == 0 ? 100 : 1000)};
+        columns["radius_of_gyration"] = {gyration * (i % 2 == 0 ? 6 : 0.1)};
         EXPECT_THAT(found_in(columns), HasSubstr("the radius of gyration"));
         columns["radius_of_gyration"] = {gyration};
         columns.erase("direction");

@@ -202,7 +202,7 @@ class AWarning(unittest.TestCase):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             overturn.evaluate(**random_blocks(100))
-        for factors, words in (({"width": 100, "height": 100}, "R = "), ({"pga": 981}, "peak ground"),
+        for factors, words in (({"width": 0.01, "height": 0.01}, "R = "), ({"pga": 981}, "peak ground"),
                                ({"pulse_period": 1000}, "the period of the pulse")):
             blocks = random_blocks(100)
             rows = random.random(100) < 0.3

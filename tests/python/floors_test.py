@@ -1,7 +1,10 @@
 """overturn.floor_motion() compared with closed forms, identities and SciPy's integration. Requires the package on
 PYTHONPATH."""
 
+import dataclasses
 import math
+import pathlib
+import tempfile
 import types
 import unittest
 import warnings
@@ -209,6 +212,66 @@ class AnIdentity(unittest.TestCase):
                                       stats=types.SimpleNamespace(delta=STEP, starttime=0.0))
         motion = overturn.floor_motion(trace, units="gal", **THREE)
         np.testing.assert_allclose(motion.acceleration, floor().acceleration, rtol=0, atol=1e-14)
+
+
+class AFile(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="overturn-test-")
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name) / "floor.txt"
+
+    def test_has_the_samples_and_states_that_they_are_those_of_a_floor(self):
+        motion = floor()
+        motion.to_text(self.path)
+        record = overturn.read_record(self.path, units="g")
+        np.testing.assert_array_equal(record.acceleration, motion.acceleration)
+        # The reader chooses the decimal number with the fewest digits.
+        self.assertAlmostEqual(record.time_step, motion.time_step, delta=4 * np.spacing(motion.time_step))
+        self.assertEqual((motion.motion_of, record.motion_of), ("floor", "floor"))
+        self.assertEqual((motion.ground_pga, record.ground_pga), (abs(ground()).max(),) * 2)
+
+    def test_replaces_its_own_kind_only(self):
+        floor().to_text(self.path)
+        floor(shape=[1, 0, 0]).to_text(self.path)
+        self.path.write_text("0 1\n")
+        with self.assertRaisesRegex(OSError, "it exists and is not a motion of a floor"):
+            floor().to_text(self.path)
+
+    def test_of_a_structure_on_a_floor_has_the_ground_below_both(self):
+        self.assertEqual(floor(floor(), step=None).ground_pga, abs(ground()).max())
+
+    def test_of_another_motion_is_one_of_the_ground(self):
+        self.path.write_text("0 0\n1 1\n")
+        record = overturn.read_record(self.path, units="g")
+        self.assertEqual((record.motion_of, record.ground_pga), ("ground", None))
+
+
+class TheWords(unittest.TestCase):
+    """Of warnings, which name the peak acceleration of the motion."""
+
+    def warning(self, **motion):
+        with warnings.catch_warnings(record=True) as raised:
+            warnings.simplefilter("always")
+            overturn.evaluate(width=0.5, height=2, restitution_of_maximum=0.9, pga=6, **motion)
+        return " ".join(str(each.message) for each in raised)
+
+    def test_are_those_of_the_motion(self):
+        arrays = {"record": ground(), "time_step": STEP}
+        record = overturn.Record(ground(), STEP, "", "text", False, [])
+        of_floor = dataclasses.replace(record, motion_of="floor")
+        for word, motion in (("ground", arrays), ("floor", {**arrays, "motion_of": "floor"}),
+                             ("ground", {"record": record}), ("floor", {"record": record, "motion_of": "floor"}),
+                             ("floor", {"record": of_floor}), ("floor", {"record": floor()}),
+                             ("floor", {"record": of_floor, "motion_of": "floor"}),
+                             ("ground", {"pulse_period": 1}), ("floor", {"pulse_period": 1, "motion_of": "floor"})):
+            with self.subTest(word, motion=[*motion]):
+                self.assertIn(f"the peak {word} acceleration = 6 g is above 5 g", self.warning(**motion))
+
+    def test_that_contradict_the_motion_are_refused(self):
+        with self.assertRaisesRegex(TypeError, "motion_of = 'ground', but a component is the motion of a floor"):
+            self.warning(record=floor(), motion_of="ground")
+        with self.assertRaisesRegex(ValueError, 'motion_of = "roof" is not one of ground, floor'):
+            self.warning(record=ground(), time_step=STEP, motion_of="roof")
 
 
 class ARefusal(unittest.TestCase):

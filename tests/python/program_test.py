@@ -80,6 +80,35 @@ class AJob(InAFolder):
         self.assertIn("here.AT2", text)
 
 
+class AnAnswer(InAFolder):
+    LEANING = {"width": 0.5, "height": np.float64(2), "incline": 0.0698, "period": 0.5, "pga_max": 1.2}
+
+    def test_has_both_directions_of_a_leaning_block_and_the_worse_verdict(self):
+        answer = overturn.topple(**self.LEANING, pga=0.5, history="worse.h5")
+        self.assertEqual(answer["verdict"], "topples at 0.5 g in direction 0, worse than 180")
+        self.assertEqual([each["topples"] for each in answer["by_direction"]], [True, False])
+        one = overturn.topple(**self.LEANING, pga=0.5, direction=180)
+        self.assertEqual(one["toppling_pga"], answer["by_direction"][1]["toppling_pga"])
+        with overturn.open("worse.h5") as history:
+            self.assertGreater(float(abs(history.angle).max()), 1.5)
+
+    def test_under_a_record_and_other_gravity(self):
+        answer = overturn.topple(width=0.6, height=1.8, record=JOBS / "synthetic.AT2", scale=1, pga_max=0.5,
+                                 overrides={"scene.gravity": 1.62})
+        self.assertEqual((answer["gravity"], answer["motion"]["record"]), (1.62, str(JOBS / "synthetic.AT2")))
+
+    def test_that_cannot_be_given_raises_the_message_of_the_program(self):
+        self.assert_fails(65, "0.42 m x 1.55 m?", overturn.topple, width=42, height=155, period=0.5)
+        self.assert_fails(2, "--depth", overturn.topple, width=1, height=2, depth=3, period=0.5)
+        with self.assertRaisesRegex(TypeError, "overturn.evaluate"):
+            overturn.topple(width=1, height=2, record=np.zeros(9), scale=1)
+
+    def test_warns_of_other_units(self):
+        with self.assertWarnsRegex(UserWarning, "the period of the pulse = 600 s") as caught:
+            overturn.topple(width=0.6, height=1.8, period=600, pga_max=0.3)
+        self.assertEqual(caught.filename, __file__)
+
+
 class ARunThatFails(InAFolder):
     def test_raises_the_message_and_the_exit_code(self):
         wrong = {**JOB, "plane": {**JOB["plane"], "restitution": 1.2}}

@@ -45,6 +45,11 @@ class ARefusal(Refused):
                 overturn.evaluate(**{**GOOD, name: value})
             self.assertTrue(str(raised.exception).startswith(phrase), str(raised.exception))
 
+    def test_of_lengths_in_centimetres_or_millimetres_asks_for_those_in_metres(self):
+        for unit in (100, 1000):
+            self.assert_refused(ValueError, "Lengths are in metres: 0.6 m x 2.4 m?", width=[0.6, 0.6 * unit],
+                                height=[2.4, 2.4 * unit])
+
     def test_of_shapes_that_do_not_broadcast(self):
         self.assert_refused(ValueError, "do not broadcast: width (3,), pga (2,)", width=[1, 2, 3], pga=[1, 2])
 

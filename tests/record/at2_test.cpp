@@ -85,6 +85,15 @@ TEST(At2, MayEndWithoutLineEndOrWithTheEndOfDosFiles)
     EXPECT_EQ(component_of(sound + "\n \t \n").acceleration, samples);
 }
 
+TEST(At2, MayEndWithPadding)
+{
+    for (const std::string& padding : paddings()) {
+        const RecordFile file = parse_record(sound + padding, "a.txt");
+        EXPECT_EQ(file.components.back().acceleration,
+                  parse_record(sound, "a.txt").components.back().acceleration);
+    }
+}
+
 TEST(At2, MayBeginWithTheByteOrderMarkOfUtf8)
 {
     EXPECT_EQ(component_of("\xef\xbb\xbf" + sound).header, component_of(sound).header);

@@ -203,6 +203,15 @@ TEST(Cosmos, MayHaveTheLineEndsOfAnySystemAndBlankLines)
     }
 }
 
+TEST(Cosmos, MayEndWithPadding)
+{
+    for (const std::string& padding : paddings()) {
+        const RecordFile file = parse_record(channel() + padding, "a.txt");
+        EXPECT_EQ(file.components.back().acceleration,
+                  parse_record(channel(), "a.txt").components.back().acceleration);
+    }
+}
+
 TEST(Cosmos, MayLackTheLineThatEndsAChannel)
 {
     const std::string text = with(channel(), "End-of-data for Chan  1 acceleration\n", "");

@@ -149,6 +149,15 @@ TEST(Csmip, MayHaveTheLineEndsOfAnySystemAndBlankLines)
     }
 }
 
+TEST(Csmip, MayEndWithPadding)
+{
+    for (const std::string& padding : paddings()) {
+        const RecordFile file = parse_record(sound + padding, "a.txt");
+        EXPECT_EQ(file.components.back().acceleration,
+                  parse_record(sound, "a.txt").components.back().acceleration);
+    }
+}
+
 TEST(Csmip, MayOmitVelocityDisplacementAndEnd)
 {
     const std::string text = channel("Up");

@@ -68,6 +68,15 @@ TEST(Esm, MayHaveTheLineEndsOfAnySystemAndBlankLines)
     }
 }
 
+TEST(Esm, MayEndWithPadding)
+{
+    for (const std::string& padding : paddings()) {
+        const RecordFile file = parse_record(sound + padding, "a.txt");
+        EXPECT_EQ(file.components.back().acceleration,
+                  parse_record(sound, "a.txt").components.back().acceleration);
+    }
+}
+
 TEST(Esm, MayLackKeysThatAreNotNeeded)
 {
     for (const char* line : {"EVENT_NAME: NOWHERE\n", "DURATION_S: 0.020\n", "USER5: \n",

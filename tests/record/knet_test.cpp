@@ -96,6 +96,13 @@ TEST(Knet, MayHaveTheLineEndsOfAnySystemAndBlankLines)
     EXPECT_EQ(component_of("\n" + sound).acceleration, values);
 }
 
+TEST(Knet, MayEndWithPadding)
+{
+    for (const std::string& padding : paddings()) {
+        EXPECT_EQ(component_of(sound + padding).acceleration, component_of(sound).acceleration);
+    }
+}
+
 TEST(Knet, MayHaveColumnsOfAnyWidthAndAnyNumberPerLine)
 {
     const std::string data = sound.substr(sound.find("     103"));

@@ -54,6 +54,21 @@ inline std::string with_line_ends(std::string_view text, const std::string& end)
     return result;
 }
 
+/// Ends of published files: of DOS, and those that fill a block of a tape or a disk.
+inline std::vector<std::string> paddings()
+{
+    std::vector<std::string> all;
+    for (const std::string& fill : {std::string("\x1a"), std::string(1, '\0')}) {
+        for (const char* end : {"", "\n", "\r\n", " ", "\t\r\n\n"}) {
+            all.push_back(fill + end);
+            all.push_back(fill + end + fill);
+            all.push_back(end + fill + fill + fill + fill + end);
+        }
+    }
+    all.push_back("\x1a" + std::string(511, '\0'));
+    return all;
+}
+
 /// The text with the first occurrence of some words replaced.
 inline std::string with(std::string text, std::string_view words, std::string_view others)
 {

@@ -3,6 +3,9 @@
 
 #include "support/scratch_folder.hpp"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
 #include <algorithm>
 #include <array>
 #include <clocale>
@@ -134,25 +137,127 @@ TEST(RecordText, IsRefusedIfItHasNoSamples)
     }
 }
 
+const std::string known_formats =
+    "AT2 (NPTS and DT in line 4), V2A, SMC, K-NET, KiK-net, COSMOS, CSMIP (volume 2), ESM, or text "
+    "of one or two columns, in which # or % precedes comments. Convert the file to one of these.";
+
 TEST(RecordText, IsRefusedIfItsFormatIsUnknown)
 {
     EXPECT_EQ(refusal_of("# a\n\nEVENT: none\nSTATION: none\n"),
-              "a.txt:3: \"EVENT: none\" is not the beginning of a known format: AT2 (NPTS and "
-              "DT in line 4), V2A, SMC, K-NET, KiK-net, COSMOS, CSMIP (volume 2), ESM, or text of "
-              "one or two columns, in which # or % precedes comments. Convert "
-              "the file to one of these.");
+              "a.txt:3: \"EVENT: none\" is not the beginning of a known format: " + known_formats);
+}
+
+TEST(RecordText, OfAnotherNetworkIsRefusedWithTheKnownFormats)
+{
+    const std::vector<std::pair<const char*, std::string>> headers{
+        {"AFAD",
+         "STRONG GROUND MOTION RECORDS OF TURKIYE\nPLACE : NOWHERE\nSTATION ALTITUDE (m) : 1\n"
+         "NUMBER OF DATA : 2\nSAMPLING INTERVAL (sec) : 0.01\n  N-S  E-W  U-D\n 0.1 0.2 0.3\n"},
+        {"UNAM", "================\nARCHIVO ESTANDAR DE ACELERACION\nDURACION DEL REGISTRO (s) : "
+                 "2\n 1 2 3\n"},
+        {"JMA", "SITE CODE= 1NOWHERE\n LAT.= 35.0\nSAMPLING RATE= 100Hz\nUNIT  = gal(cm/s/s)\n"
+                "NS,EW,UD\n0.1,0.2,0.3\n"},
+        {"GeoCSV", "# dataset: GeoCSV 2.0\n# sample_rate_hz: 100\n# field_unit: UTC, M/S**2\n"
+                   "Time, Sample\n2020-01-01T00:00:00Z, 1\n"},
+        {"TSPAIR", "TIMESERIES XX_ABC__HNE_D, 2 samples, 100 sps, TSPAIR, FLOAT, M/S**2\n"
+                   "2020-01-01T00:00:00.000000  0.1\n"},
+        {"AColumnWithAName", "time,acc\n0.0,0.1\n0.1,0.2\n"},
+        {"Json", "{\"dt\": 0.01, \"acceleration\": [0.1, 0.2]}\n"},
+        {"Xml", "<?xml version=\"1.0\"?>\n<record dt=\"0.01\">0.1 0.2</record>\n"},
+        {"OnlyAnOriginTime", "Name = A\nOrigin Time : 2012/08/11   12:23:16\nNo unit\n 0.1 0.2\n"},
+        {"OnlyAScaleFactor", "Station A\nScale Factor: 2\n0.1\n0.2\n"},
+        {"OnlyADirection", "Station A\nDir. N\n0.1\n0.2\n"},
+        {"OnlyANameOfTheEvent", "EVENT_NAME: NOWHERE\nRATE: 100\n0.1\n0.2\n"},
+        {"OnlyACount", "STATION: A\nNDATA: 2\nRATE: 100\n0.1\n0.2\n"},
+        {"ANumberOfPointsInLineTen",
+         std::string("Station A\n") + std::string(8, '\n') + "Number of points: 2\n0.1\n"}};
+    for (const auto& [name, text] : headers) {
+        for (const char* end : {"\n", "\r\n"}) {
+            EXPECT_THAT(
+                refusal_of(with_line_ends(text, end)),
+                testing::EndsWith("is not the beginning of a known format: " + known_formats))
+                << name;
+        }
+    }
+}
+
+TEST(RecordText, OfANetworkWhoseHeaderResemblesAKnownOneIsRefusedWithTheKnownFormats)
+{
+    const std::string usc_2 =
+        "CORRECTED ACCELEROGRAM  IIAB001  90.000.0 COMP N00E   FILE   0  CORRESPONDING T \n"
+        "FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:                        \n"
+        "NOWHERE EARTHQUAKE\nSTATION USC# 0000   34 00 00N, 118 00 00W\n"
+        "UNITS ARE SEC AND G/10\nAT EQUALLY-SPACED INTERVALS OF    .020  SEC.\n"
+        "   2 POINTS OF ACC DATA EQUALLY SPACED AT   .020 SEC.  IN UNITS CM/SEC/SEC\n"
+        "    -1.133    -1.152\n";
+    const std::string usc_1 = "FILE     0 OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I:\n"
+                              "STATION USC# 0000   34 00 00N, 118 00 00W\n .0 .1 .0 .2\n";
+    const std::string bhrc = "* VOL1DS FILE:  0000/01\nInst Type = SSA-2\n"
+                             "Origin Time : 2012/08/11   12:23:16\n\nL\n\nCOMP L1\n"
+                             "NO. OF POINTS =  2      DURATION =  .005\n"
+                             "UNITS ARE SECONDS AND G/10\n  .457339E-03  .457339E-03\n";
+    const std::string cwb =
+        "#Earthquake Information\n#Origin Time(GMT+08): 2018/02/06-23:50:42\n#Depth(km): 10.0\n"
+        "#SampleRate(Hz): 50\n#AmplitudeUnit:  gal. DCoffset(corr)\n"
+        "#DataSequence: Time U(+); N(+); E(+)\n#Data: 4F10.3\n"
+        "     0.000     0.000     0.000     0.000\n     0.020     0.001     0.002     0.003\n";
+    const std::vector<std::pair<const char*, std::string>> files{
+        {"USC", usc_2},
+        {"USC", with(usc_2, "STATION USC# 0000", "STATION 0")},
+        {"USC", usc_1},
+        {"BHRC (Iran)", bhrc},
+        {"CWB (Taiwan)", cwb}};
+    for (const auto& [name, text] : files) {
+        for (const RecordOptions& options :
+             {RecordOptions{}, in_g,
+              RecordOptions{.time_step = {}, .unit = AccelerationUnit::gal}}) {
+            EXPECT_THAT(
+                refusal_of(text, options),
+                testing::EndsWith(fmt::format(" shows the format of {}, which is not known. "
+                                              "Known formats are {}",
+                                              name, known_formats)));
+        }
+    }
+}
+
+TEST(RecordText, OfTwoColumnsMayHaveTheCommentsOfAFormatThatIsNotKnown)
+{
+    for (const char* comment :
+         {"#Earthquake Information", "# STATION USC# 0000", "# * VOL1DS FILE:  0000/01"}) {
+        EXPECT_EQ(component_of(std::string(comment) + "\n0.0 1\n0.1 2\n", in_g).acceleration,
+                  (Values{1, 2}));
+    }
+}
+
+TEST(RecordText, OfSpectraIsRefused)
+{
+    EXPECT_EQ(refusal_of("Response and Fourier amplitude spectra (86 periods)   for\n"
+                         "Corrected accelerogram   0.XX.ABC.--.HN    Chan  1:  90 Deg     from\n"
+                         "Uncorrected Accelerogram Data             Processed: 04/30/14\n"),
+              "a.txt:1: \"Response and Fourier amplitude spectra (...\" does not announce "
+              "accelerations. Give the file of the acceleration.");
 }
 
 TEST(RecordText, IsRefusedIfItIsBinary)
 {
-    EXPECT_EQ(refusal_of(std::string("\x89HDF\r\n\x1a\n\0\0", 10)),
-              "a.txt:2: the character 0x1a is not text. Give a file of text: a published record, "
-              "or columns.");
-    EXPECT_EQ(refusal_of(std::string("1\0", 2)),
-              "a.txt:1: the character 0x00 is not text. Give a file of text: a published record, "
-              "or columns.");
-    EXPECT_EQ(refusal_of(std::string("\xff\xfe\x31\0\x0a\0", 6)), // UTF-16
-              "a.txt:1: the character 0x00 is not text. Give a file of text: a published record, "
+    const auto message = [](int line, const char* code) {
+        return fmt::format("a.txt:{}: the character {} is not text, and the file does not begin in "
+                           "a known format: {}",
+                           line, code, known_formats);
+    };
+    EXPECT_EQ(refusal_of(std::string("\x89HDF\r\n\x1a\n\0\0\1", 11)), message(2, "0x1a"));
+    EXPECT_EQ(refusal_of(std::string("000001D \0\1", 10)), message(1, "0x00"));    // miniSEED
+    EXPECT_EQ(refusal_of(std::string("\0\xe4\x40\xc6\1", 5)), message(1, "0x00")); // SAC
+    EXPECT_EQ(refusal_of("PK\3\4"), message(1, "0x03"));                           // ZIP
+    EXPECT_EQ(refusal_of("\x1f\x8b\x08"), message(1, "0x1f"));                     // gzip
+    EXPECT_EQ(refusal_of(std::string("\xff\xfe\x31\0\x0a\0\x32\0", 8)),
+              message(1, "0x00")); // UTF-16
+}
+
+TEST(RecordText, IsRefusedIfItContainsABinaryCharacter)
+{
+    EXPECT_EQ(refusal_of(std::string("0 1\n1\0 2\n", 9), in_g),
+              "a.txt:2: the character 0x00 is not text. Give a file of text: a published record, "
               "or columns.");
 }
 

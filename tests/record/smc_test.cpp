@@ -119,6 +119,13 @@ TEST(Smc, IsRefusedIfItsSamplesArePairsOfTimesAndAccelerations)
     }
 }
 
+TEST(Smc, MayEndWithPadding)
+{
+    for (const std::string& padding : paddings()) {
+        EXPECT_EQ(component_of(sound + padding).acceleration, component_of(sound).acceleration);
+    }
+}
+
 // clang-format off
 TEST(Smc, IsRefusedWithFileLineAndReason)
 {

@@ -44,6 +44,44 @@ TEST(Text, KeepsItsCommentsAsHeader)
               header);
 }
 
+TEST(Text, StatesWhoseMotionItIsInAComment)
+{
+    for (const char* comment :
+         {"# motion_of = floor", "%motion_of=floor", "  # motion_of = \"floor\""}) {
+        const RecordComponent component =
+            component_of(std::string(comment) + "\n1\n2\n", one_column);
+        EXPECT_EQ(component.motion_of, MotionOf::floor) << comment;
+    }
+    EXPECT_EQ(component_of("1\n# motion_of = ground\n2\n", one_column).motion_of, MotionOf::ground);
+}
+
+TEST(Text, DoesNotStateWhoseMotionItIsInOtherWords)
+{
+    for (const char* comment : {"# floor 3", "# motion of = floor", "# the motion_of = floor",
+                                "# =", "#", "# motion_of floor"}) {
+        const RecordComponent component =
+            component_of(std::string(comment) + "\n1\n2\n", one_column);
+        EXPECT_FALSE(component.motion_of) << comment;
+        EXPECT_FALSE(component.ground_pga) << comment;
+    }
+}
+
+TEST(Text, StatesTheAccelerationOfTheGroundBelowAFloor)
+{
+    EXPECT_EQ(component_of("# ground_pga = 0.25\n1\n2\n", one_column).ground_pga, 0.25);
+}
+
+TEST(Text, IsRefusedIfAStatementOnItsMotionIsNotAllowed)
+{
+    EXPECT_EQ(
+        refusal_of("# motion_of = roof\n1\n", one_column),
+        "a.txt:1: motion_of = roof is not one of ground, floor. Correct the comment, or remove "
+        "it.");
+    EXPECT_EQ(refusal_of("# ground_pga = -1\n1\n", one_column),
+              "a.txt:1: ground_pga = -1 is outside (0, inf). It is the peak acceleration of the "
+              "ground over g. Correct the comment, or remove it.");
+}
+
 TEST(Text, IsNotAnAt2FileIfTheFourthLineIsAComment)
 {
     EXPECT_EQ(component_of("#\n#\n#\n# NPTS= 2, DT= .02\n1\n2\n", one_column).acceleration,
@@ -62,6 +100,21 @@ TEST(Text, MayHaveTheLineEndsOfAnySystem)
             component_of(with_line_ends("# one\n0.0 1\n0.1 2\n", end), in_g);
         EXPECT_EQ(component.acceleration, (Values{1, 2}));
         EXPECT_EQ(component.header, std::vector<std::string>{"# one"});
+    }
+}
+
+TEST(Text, MayEndWithPadding)
+{
+    for (const std::string& padding : paddings()) {
+        EXPECT_EQ(component_of("0.0 1\n0.1 2\n" + padding, in_g).acceleration, (Values{1, 2}));
+    }
+}
+
+TEST(Text, MayNotContainPadding)
+{
+    for (const std::string& padding : paddings()) {
+        EXPECT_THAT(refusal_of("0.0 1\n" + padding + "0.1 2\n", in_g),
+                    testing::HasSubstr("is not text"));
     }
 }
 
@@ -129,7 +182,66 @@ TEST(TimeStep, AcceptsTimesThatAreHalfAUnitOff)
 
 TEST(TimeStep, OfTimesWithFewDigitsIsAnyThatRoundsToThem)
 {
-    EXPECT_EQ(component_of("0.00 0\n0.01 0\n0.02 0\n0.04 0\n", in_g).time_step, 0.012);
+    EXPECT_EQ(component_of(printed("%.2f", 0, 0.012, 9), in_g).time_step, 0.012);
+}
+
+TEST(TimeStep, OfRoundedTimesMayMakeStepsOfOneAndTwoUnits)
+{
+    for (const auto& [format, step, count] :
+         std::vector<std::tuple<const char*, double, int>>{{"%.2f", 0.0125, 1000},
+                                                           {"%.2f", 0.0104, 200},
+                                                           {"%.2f", 0.0102, 200},
+                                                           {"%.2f", 0.016, 50},
+                                                           {"%.1f", 0.125, 50},
+                                                           {"%.0f", 1.25, 50},
+                                                           {"%.0f", 1.9, 50}}) {
+        EXPECT_EQ(component_of(printed(format, 0, step, count), in_g).time_step, step) << step;
+    }
+}
+
+TEST(TimeStep, MayBeRoundedToFewerDigitsAfterSomeTime)
+{
+    // One step of 0.02 s, after 1 s; those before are 0.011 s.
+    EXPECT_EQ(component_of(printed("%.3g", 0, 1 / 90.0, 100), in_g).time_step, 0.011111);
+}
+
+TEST(TimeStep, IsNotStretchedOverAMissingSample)
+{
+    // Times with a step of one unit of their last digit, the first three and the last, agree with a
+    // longer one if the gap is in their last two thirds.
+    for (const auto& [format, step] :
+         std::vector<std::pair<const char*, double>>{{"%.2f", 0.01},
+                                                     {"%.1f", 0.1},
+                                                     {"%.0f", 1},
+                                                     {"%.3f", 0.001},
+                                                     {"%.2f", 0.02},
+                                                     {"%.3f", 0.005},
+                                                     {"%.3f", 0.0078125},
+                                                     {"%.5f", 0.0078125},
+                                                     {"%.2e", 0.01}}) {
+        for (const double first : {0.0, 2.0, -1.0}) {
+            for (const int missing : {2, 9, 20, 30, 38}) {
+                const std::string text =
+                    printed(format, first, step, missing) +
+                    printed(format, first + (missing + 1) * step, step, 40 - missing);
+                EXPECT_THAT(
+                    refusal_of(text, in_g),
+                    testing::AllOf(testing::StartsWith(fmt::format("a.txt:{}: ", missing + 1)),
+                                   testing::HasSubstr("missing")))
+                    << format << " " << step << " " << first;
+            }
+        }
+    }
+}
+
+TEST(TimeStep, IsNotStretchedOverAGapBehindTheFirstSample)
+{
+    EXPECT_EQ(refusal_of("0.00 1\n0.02 1\n0.03 1\n0.04 1\n0.05 1\n", in_g),
+              "a.txt:2: the time is 0.02 s after the previous one, but all other steps are at most "
+              "0.01 s: a sample is missing. Give the complete record; if none is missing, give "
+              "times with more digits.");
+    EXPECT_THAT(refusal_of("0.000 1\n0.007 1\n0.010 1\n0.013 1\n0.017 1\n", in_g),
+                testing::StartsWith("a.txt:2: the time is 0.007 s after the previous one"));
 }
 
 TEST(TimeStep, IsPositiveEvenIfTheTimesHaveFewDigits)
@@ -217,10 +329,16 @@ TEST(Text, IsRefusedWithFileLineAndReason)
             "file."},
         {"UnevenTimes", "0.000 0\n0.010 0\n0.020 0\n0.040 0\n", in_g,
             "a.txt:4: the time is 0.040 s, but must be 0.03 s to within half a unit of its last digit: times must be "
+            "evenly spaced, and those before have the step 0.01 s. 1 sample is missing. Give the complete record."},
+        {"UnevenSteps", "0.000 0\n0.010 0\n0.020 0\n0.034 0\n", in_g,
+            "a.txt:4: the time is 0.034 s, but must be 0.03 s to within half a unit of its last digit: times must be "
             "evenly spaced, and those before have the step 0.01 s. Resample the record, or give one column and time_step."},
+        {"TwoMissingTimes", "0.00 0\n0.02 0\n0.04 0\n0.10 0\n", in_g,
+            "a.txt:4: the time is 0.10 s, but must be 0.06 s to within half a unit of its last digit: times must be "
+            "evenly spaced, and those before have the step 0.02 s. 2 samples are missing. Give the complete record."},
         {"AMissingTime", printed("%.3f", 0, 0.005, 100) + printed("%.3f", 0.505, 0.005, 100), in_g,
             "a.txt:101: the time is 0.505 s, but must be 0.5 s to within half a unit of its last digit: times must be "
-            "evenly spaced, and those before have the step 0.005 s. Resample the record, or give one column and time_step."},
+            "evenly spaced, and those before have the step 0.005 s. 1 sample is missing. Give the complete record."},
         {"RepeatedTimes", "0.0 0\n0.0 0\n", in_g,
             "a.txt:2: the time 0.0 s is not after the previous time, 0 s. Give ascending times with enough digits, "
             "or one column and time_step."},
@@ -328,6 +446,13 @@ TEST(OneColumn, IsRefusedIfItBeginsWithTheNumberOfItsSamples)
     }
 }
 
+TEST(Text, OfMoreColumnsIsRefusedBeforeItsUnitIsAskedFor)
+{
+    EXPECT_EQ(refusal_of("# three components\n0.0 1 2 3\n"),
+              "a.txt:2: the line has 4 columns. Give one column of accelerations, or two of times "
+              "and accelerations; the decimal mark is a point.");
+}
+
 TEST(TwoColumns, StateTheTimeOfTheFirstSample)
 {
     EXPECT_EQ(component_of("3.00 1\n3.01 2\n", in_g).start, 3);
@@ -336,13 +461,16 @@ TEST(TwoColumns, StateTheTimeOfTheFirstSample)
 
 TEST(Text, IsRefusedIfItsCommentsSpeakOfOtherMotions)
 {
-    for (const char* comment :
-         {"# Velocity time series", "# displacement record", "% VELOCITIES"}) {
+    for (const char* comment : {"# Velocity time series", "# displacement record", "% VELOCITIES",
+                                "# velocity 230", "# ground velocity"}) {
         EXPECT_THAT(refusal_of(fmt::format("{}\n0 1\n1 2\n", comment), in_g),
                     ::testing::HasSubstr("does not contain accelerations"));
     }
-    for (const char* comments : {"# acceleration, before velocity was corrected",
-                                 "# Peak velocity: 0.3 m/s\n# ACC", "# station"}) {
+    for (const char* comments :
+         {"# acceleration, before velocity was corrected", "# Peak velocity: 0.3 m/s\n# ACC",
+          "# station", "# Peak velocity: 0.3 m/s", "# Peak displacement (cm): 1.4",
+          "# Shear-wave velocity (m/s): 360", "# S-wave velocity 360 m/s",
+          "# Fault displacement 1.2 m", "# velocity (m/s): 360", "# initial velocity"}) {
         EXPECT_EQ(component_of(fmt::format("{}\n0 1\n1 2\n", comments), in_g).acceleration,
                   (Values{1, 2}));
     }

@@ -1,6 +1,7 @@
 // Units of acceleration that headers state.
 #include "reading.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <random>
@@ -283,6 +284,117 @@ TEST(AStatedUnit, InTheNameOfAColumnMustBeTheGivenOne)
         EXPECT_EQ(refusal_of(name + "\n1\n", given) == "", length == "m") << name;
         const RecordOptions in_g_too{.time_step = 0.01, .unit = AccelerationUnit::g};
         EXPECT_NE(refusal_of(name + "\n1\n", in_g_too), "") << name;
+    }
+}
+
+/// The refusal of two columns with this comment, in this unit.
+std::string refusal_with(const std::string& comment, AccelerationUnit unit)
+{
+    return refusal_of("# " + comment + "\n0.00 1.0\n0.01 2.0\n", {.time_step = {}, .unit = unit});
+}
+
+constexpr AccelerationUnit some_units[] = {AccelerationUnit::g, AccelerationUnit::m_per_s2,
+                                           AccelerationUnit::gal};
+
+TEST(AStatedUnit, OfAnotherQuantityIsNotThatOfTheSamples)
+{
+    const std::vector<std::pair<std::string, std::vector<std::string>>> quantities{
+        {"km",
+         {"Depth", "Hypocentral depth", "Epicentral distance", "Rjb", "R_rup",
+          "Distance to rupture", "Fault length"}},
+        {"m/s", {"Vs30", "Average shear-wave velocity", "Arias intensity", "S wave velocity"}},
+        {"m",
+         {"Station elevation", "Altitude", "Sensor depth", "Location X", "UTM E", "Soil thickness",
+          "Slip"}},
+        {"cm/s", {"PGV", "Peak velocity", "Maximum ground velocity"}},
+        {"cm", {"PGD", "Peak displacement", "Fault displacement", "Housner intensity"}},
+        {"g",
+         {"PGA", "Peak acceleration", "Peak ground acceleration", "Trigger level",
+          "Full-scale range", "PSA"}},
+        {"cm/s2", {"PGA", "Max. acceleration", "Maximum absolute acceleration"}},
+        {"ms", {"Filter delay", "Magnitude"}},
+        {"min", {"Duration"}},
+        {"V/g", {"Sensitivity"}},
+        {"counts/g", {"Gain", "Sensitivity"}},
+        {"degrees", {"Latitude", "Azimuth"}}};
+    for (const auto& [unit, names] : quantities) {
+        for (const std::string& name : names) {
+            for (const std::string& comment :
+                 {fmt::format("{} ({}): 12.3", name, unit), fmt::format("{}({}): 12.3", name, unit),
+                  fmt::format("{} [{}] = 12.3", name, unit),
+                  fmt::format("{} ({}) 12.3", name, unit), fmt::format("{}: 12.3 {}", name, unit),
+                  fmt::format("{} in {}: 12.3", name, unit),
+                  fmt::format("Station A, {} ({}): 12.3, Mw 6.5", name, unit)}) {
+                for (const AccelerationUnit given : some_units) {
+                    EXPECT_EQ(refusal_with(comment, given), "");
+                }
+            }
+        }
+    }
+}
+
+TEST(AStatedUnit, InAListOfOtherQuantitiesIsNotThatOfTheSamples)
+{
+    for (const char* comment :
+         {"distances in km, times in UTC", "lat lon depth(km) mag", "Station, Vs30 (m/s), Rjb (km)",
+          "Depth unit: km", "Coordinate units: degrees", "g = 9.81", "g (m/s2): 9.81",
+          "gravity [m/s2] = 9.80665", "Gravity: 981 cm/s2", "Sample count: 4000", "PGA of 0.35 g",
+          "peak acceleration 0.35 g", "Magnitude Ms 7.1", "EVENT_DEPTH_KM: 12.0",
+          "STATION_ELEVATION_M: 735", "VS30_M/S: 450", "PGA_CM/S^2: 0.300022", "PGV_CM/S: 3.2",
+          "PGD_CM: 0.3"}) {
+        for (const AccelerationUnit given : some_units) {
+            EXPECT_EQ(refusal_with(comment, given), "");
+        }
+    }
+}
+
+TEST(AStatedUnit, OfManyQuantitiesInOneCommentIsReadInLinearTime)
+{
+    // A hundred times slower if all words before each unit were read.
+    std::string comment;
+    for (int i = 0; i < 20'000; ++i) {
+        comment += "depth (m/s) ";
+    }
+    EXPECT_EQ(refusal_with(comment, AccelerationUnit::g), "");
+}
+
+TEST(AStatedUnit, OfAccelerationOrAColumnIsThatOfTheSamplesAlsoBesideOtherQuantities)
+{
+    const std::vector<std::pair<std::string, std::optional<AccelerationUnit>>> units{
+        {"g", AccelerationUnit::g},
+        {"m/s2", AccelerationUnit::m_per_s2},
+        {"cm/s^2", AccelerationUnit::gal},
+        {"gal", AccelerationUnit::gal},
+        {"mm/s2", AccelerationUnit::mm_per_s2},
+        {"0.01 g", {}},
+        {"ft/s2", {}},
+        {"mg", {}}};
+    for (const auto& [unit, stated] : units) {
+        for (const char* name :
+             {"acceleration", "Acc", "column 2", "data", "samples", "component EW", "ground motion",
+              "Acceleration of the ground", "record", "NS", "floor level 3", "noise-free data",
+              "full record"}) {
+            for (const std::string& statement :
+                 {fmt::format("{} in {}", name, unit), fmt::format("{} ({})", name, unit),
+                  fmt::format("{} [{}], 100 samples", name, unit),
+                  fmt::format("Depth (km): 10, {} in {}", name, unit),
+                  fmt::format("Vs30 (m/s): 360; {} ({})", name, unit),
+                  fmt::format("PGA 343 gal, {} in {}", name, unit)}) {
+                for (const AccelerationUnit given : some_units) {
+                    EXPECT_EQ(refusal_with(statement, given) == "", stated == given) << statement;
+                }
+            }
+        }
+    }
+    for (const char* statement :
+         {"units: km", "units: furlongs", "units of the samples: km", "acc (km)",
+          "acceleration [m]", "velocity [cm/s]", "displacement [cm]", "channel 1 [cm/s]",
+          "horizontal (m/s)", "(km)", "series [cm]", "acceleration (cm): 3", "raw counts",
+          "raw counts, 24 bit", "max 35 in units of 0.01 g", "t (ms), Depth (km): 10",
+          "PGA-scaled record (mg): 4000"}) {
+        for (const AccelerationUnit given : some_units) {
+            EXPECT_NE(refusal_with(statement, given), "") << statement;
+        }
     }
 }
 

@@ -126,6 +126,15 @@ TEST(V2a, MayEndWithBlankLines)
     EXPECT_EQ(parse_record(sound + "\n   \n", "a.txt").components.size(), 3);
 }
 
+TEST(V2a, MayEndWithPadding)
+{
+    for (const std::string& padding : paddings()) {
+        const RecordFile file = parse_record(sound + padding, "a.txt");
+        EXPECT_EQ(file.components.back().acceleration,
+                  parse_record(sound, "a.txt").components.back().acceleration);
+    }
+}
+
 TEST(V2a, MayOmitVelocityAndDisplacement)
 {
     std::string text =

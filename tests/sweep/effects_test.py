@@ -39,8 +39,17 @@ MEASURED = [field for field in effects.FIELDS if field not in ("impacts", "error
 
 
 @functools.cache
+def counter():
+    return effects.Counter(os.environ["BENCH_EFFECTS"])
+
+
+def tearDownModule():
+    counter().close()
+
+
+@functools.cache
 def measure(*words):
-    return effects.measure(os.environ["BENCH_EFFECTS"], *words)
+    return counter().measure(*words)
 
 
 def sweep(*fields, method="rk45", pulse="one_sine", theory="nonlinear", side=SIDE,

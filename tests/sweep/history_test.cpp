@@ -142,7 +142,8 @@ TEST(History, HasTheFrictionOfTheSpectrum)
     std::mt19937_64 generator(6);
     std::uniform_real_distribution<double> uniform(0, 1);
     int compared = 0;
-    for (int i = 0; i < 80; ++i) {
+    constexpr std::array pulses{PulseKind::one_sine, PulseKind::rectangular, PulseKind::one_cosine};
+    for (int i = 0; i < 120; ++i) {
         Scene scene;
         Point point{};
         if (i % 2 == 0) {
@@ -151,7 +152,7 @@ TEST(History, HasTheFrictionOfTheSpectrum)
             scene.records = {std::make_shared<const Accelerogram>(drawn.record)};
             point = {drawn.block, drawn.scale, drawn.frequency};
         } else {
-            scene.pulse = PulseKind::one_sine;
+            scene.pulse = pulses[std::size_t(i / 2) % pulses.size()];
             const PulsePoint<double> drawn = random_point(generator);
             point = {drawn.block(), drawn.amplitude, drawn.frequency};
         }
@@ -173,7 +174,22 @@ TEST(History, HasTheFrictionOfTheSpectrum)
             EXPECT_GE(seen, found * 0.98) << i; // samples miss narrow peaks
         }
     }
-    EXPECT_GT(compared, 60);
+    EXPECT_GT(compared, 90);
+}
+
+TEST(History, BeginsBeforeAJumpThatLiftsTheBlock)
+{
+    const Point point{.block = {0.2, 0.9}, .amplitude = 4, .frequency = 3, .gyration = 0.577};
+    for (const PulseKind pulse : {PulseKind::rectangular, PulseKind::one_cosine}) {
+        const History history = history_of({pulse, Theory::nonlinear, 1}, point);
+        const HistoryEvent& uplift = history.events.front();
+        EXPECT_EQ(uplift.kind, EventKind::uplift);
+        EXPECT_EQ(uplift.before.time, 0);
+        EXPECT_EQ(uplift.before.ground, 0);
+        EXPECT_EQ(uplift.before.friction, 0);
+        EXPECT_EQ(uplift.after.time, 0);
+        EXPECT_DOUBLE_EQ(uplift.after.ground, 4 * std::tan(0.2));
+    }
 }
 
 TEST(History, AgreesWithPeaksAndFallTimesOfTheSpectrum)

@@ -11,6 +11,7 @@ from tool import JOBS, InAFolder  # first: adds the package to the path
 from matplotlib import pyplot
 from overturn import plot
 from overturn.plot.headings import width_of, wrapped
+from overturn.result_file import told_apart
 
 TITLE = "A marble figure of 2.1 m, which leans by 1.5 degrees, and of which nobody remembers whom it represents"
 JOB = f"""
@@ -63,6 +64,13 @@ class TestALongTitle(InAFolder):
         others = [*boxes, *(panel.get_window_extent() for panel in panels)]
         for box in boxes:
             self.assertEqual([other for other in others if other is not box and box.overlaps(other)], [])
+
+    def test_is_shortened_where_it_does_not_differ(self):
+        for texts, shown in ((["a long name 1", "a long name 2"], ["…name 1", "…name 2"]),
+                             (["1 of some", "2 of some"], ["1 of s…", "2 of s…"]), (["a", "b"], ["a", "b"]),
+                             ((["begins like 1 ends like", "begins like 2 ends like"],) * 2),
+                             (["same same", "same same"], ["same s…", "same s…"])):
+            self.assertEqual(told_apart(texts, 7), shown)
 
     def test_is_broken_between_words_or_after_commas(self):
         words, width = "one two, three four, five", width_of("one two, three", 10)

@@ -4,15 +4,19 @@ Requires OVERTURN (the binary) in the environment.
 """
 
 import csv
+import dataclasses
 import re
 import shutil
 import signal
 import subprocess
 import unittest
+import warnings
 
 import h5py
 import numpy as np
 from tool import TOOLS, InOneFolder, run_overturn, run_tool  # first: adds the package to the path
+import overturn
+from matplotlib import pyplot
 from overturn.plot import fragility_curves
 
 JOB = """
@@ -65,6 +69,25 @@ class TestAPicture(Curve):
             self.assertIn(f"\nslenderness = {slenderness} rad\n", text)
             self.assertIn(f"# slenderness = {slenderness} rad\n", (self.folder / f"by_{number}.csv").read_text())
         self.assertIn("by slenderness", words)
+
+    def test_of_many_groups_has_all_its_words_within_the_picture(self):
+        with overturn.open(self.folder / "result.h5") as dataset:
+            curve = overturn.fragility(dataset, samples=2)
+        for count in (2, 12):
+            for long in (0, 3):  # repetitions of some words in a name
+                curves = [dataclasses.replace(curve, group=f"kind = {'grey granite of the valley ' * (long * (i % 2))}{i}",
+                                              notes=("a note",) * (i % 3)) for i in range(count)]
+                figure, panel = pyplot.subplots(layout="constrained", figsize=(5.5, 5))
+                with warnings.catch_warnings():
+                    warnings.simplefilter("error")
+                    fragility_curves.make_room([fragility_curves.draw_panel(panel, curves)])
+                    figure.draw_without_rendering()
+                pyplot.close(figure)
+                self.assertGreater(min(panel.get_window_extent().size), 3.5 * figure.dpi)
+                for words in (panel.get_legend(), panel.xaxis.label, panel.title):
+                    box = words.get_window_extent()
+                    self.assertTrue(0 <= box.x0 < box.x1 <= figure.bbox.x1, (count, long, words))
+                    self.assertTrue(0 <= box.y0 < box.y1 <= figure.bbox.y1, (count, long, words))
 
     def test_replaces_its_own_table_and_no_other(self):
         self.output_of("result.h5", "--im", "pga", "--csv", "own.csv", "-o", "picture.png")

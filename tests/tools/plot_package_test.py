@@ -4,13 +4,15 @@ Requires OVERTURN (the binary) in the environment.
 """
 
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
 from tool import JOBS, InOneFolder, run_overturn  # first: adds the package to the path
 import overturn
 from matplotlib import image, pyplot
-from overturn.regions import CODES
+from overturn.plot import spectra
+from overturn.regions import CODES, LEFT_OUT
 
 FEW = [f"plane.{axis}.count=20" for axis in ("frequency", "amplitude")]
 
@@ -62,13 +64,86 @@ class TestPicturesFromPython(InOneFolder):
         with self.assertRaisesRegex(overturn.ToolError, "limited to 1"):
             overturn.plot.spectrum(self.path("spectrum"), ax=panels[0])
 
-    def test_take_a_data_set_as_it_was_opened(self):
+    def codes_of(self, result):
+        """Returns the region codes of the panels of a picture."""
+        shown = []
+
+        def draw_sheet(planes, *_):
+            shown.extend(plane.read("region") for plane in planes)
+            return unittest.mock.MagicMock()
+        with unittest.mock.patch.object(spectra, "draw_sheet", draw_sheet):
+            overturn.plot.spectrum(result)
+        return np.array(shown)
+
+    def changes(self):
+        """Yields data sets that a user may make of one, and a function that makes the same of its file's codes."""
+        draw = np.random.default_rng(20)
+        for _ in range(7):
+            first, count, low = (int(number) for number in draw.integers((0, 9, 1), (5, 15, 9)))
+            part = slice(first, first + count)
+            yield (lambda data, part=part: data.isel(amplitude=part)), (lambda codes, part=part: codes[:, part])
+            yield (lambda data, part=part: data.isel(frequency=part, restitution_of_maximum=[1])), (
+                lambda codes, part=part: codes[1:, :, part])
+            yield (lambda data, low=low: data.where(data.frequency > low)), (
+                lambda codes, low=low: np.where(self.frequency > low, codes, LEFT_OUT))
+            yield (lambda data, low=low: data.assign(region=data.region.where(data.amplitude > low, 255))), (
+                lambda codes, low=low: np.where(self.amplitude[:, None] > low, codes, 255))
+        yield (lambda data: data.isel(restitution_of_maximum=0)), (lambda codes: codes[:1])
+        yield (lambda data: data.isel(restitution_of_maximum=[1, 0])), (lambda codes: codes)
+        yield (lambda data: data.sortby("frequency", ascending=False).transpose()), (
+            lambda codes: codes.transpose())
+        yield (lambda data: data.copy(data={name: np.full_like(data[name], 3) for name in data})), (
+            lambda codes: np.full_like(codes, 3))
+
+    def test_show_the_data_set_that_is_given_and_not_its_file(self):
         with overturn.open(self.path("spectrum")) as dataset:
-            self.assertEqual(len(overturn.plot.spectrum(dataset)), 2)
-            with self.assertRaisesRegex(ValueError, "is not all of"):
-                overturn.plot.spectrum(dataset.isel(amplitude=slice(3)))
-            with self.assertRaisesRegex(ValueError, "is not all of"):
-                overturn.plot.spectrum(dataset.isel(restitution_of_maximum=0))
+            self.frequency, self.amplitude = dataset.frequency.values, dataset.amplitude.values
+            for number, (change, of_codes) in enumerate(self.changes()):
+                with self.subTest(number):
+                    wanted = of_codes(dataset.region.values)
+                    np.testing.assert_array_equal(self.codes_of(change(dataset)), wanted)
+
+    def test_of_a_data_set_as_it_was_opened_are_those_of_its_file(self):
+        with overturn.open(self.path("spectrum")) as dataset:
+            np.testing.assert_array_equal(self.codes_of(dataset), self.codes_of(self.path("spectrum")))
+
+    def test_hatch_and_explain_what_a_user_left_out(self):
+        with overturn.open(self.path("spectrum")) as dataset:
+            panels = overturn.plot.spectrum(dataset.where(dataset.amplitude < 5))
+        texts = [text.get_text() for text in panels[0].figure.legends[0].get_texts()]
+        self.assertIn("left out", texts)
+        self.assertNotIn("not computed yet", texts)
+
+    def test_of_a_data_set_that_cannot_be_drawn_are_refused(self):
+        with overturn.open(self.path("spectrum")) as dataset:
+            bare = dataset.copy()
+            bare.attrs = {}
+            for change, words in (
+                    (dataset.drop_vars("amplitude"), "amplitude of region has no coordinate of numbers"),
+                    (dataset.isel(amplitude=[0, 0, 1]), "has a value twice"),
+                    (dataset.interp(amplitude=[1.5, 2.5]), "no region codes"),
+                    (dataset.assign(region=dataset.region + 100), "no region codes"),
+                    (bare, "no attribute kind"), (dataset.region, "no data set of overturn.open")):
+                with self.assertRaisesRegex(ValueError, words):
+                    overturn.plot.spectrum(change)
+
+    def test_of_a_part_of_a_boundary_or_a_history_are_refused(self):
+        for name, draw, part in (("boundary", overturn.plot.boundary, {"crossing": [0]}),
+                                 ("history", overturn.plot.history, {"time": slice(9)})):
+            with overturn.open(self.path(name)) as dataset:
+                draw(dataset)
+                changed = dataset.copy(data={field: np.zeros_like(dataset[field]) for field in dataset})
+                for given in (dataset.isel(part), changed):
+                    with self.assertRaisesRegex(ValueError, "only whole boundaries and histories are drawn"):
+                        draw(given)
+
+    def test_and_curves_of_what_is_no_data_set_are_refused(self):
+        with overturn.open(self.path("spectrum")) as dataset:
+            for given in (self.path("spectrum"), str(self.path("spectrum")), dataset.region, None):
+                for function in (overturn.fragility, lambda data: overturn.supported_share(data, 0.5),
+                                 overturn.plot.fragility):
+                    with self.assertRaisesRegex(ValueError, "is no data set|is no fragility curve"):
+                        function(given)
 
     def test_name_regions_as_the_file_does(self):
         with h5py.File(self.path("spectrum")) as file:

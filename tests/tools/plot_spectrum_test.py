@@ -3,12 +3,18 @@
 Requires OVERTURN (the binary) in the environment.
 """
 
+import argparse
+import re
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
 from matplotlib import colors
-from tool import InAFolder  # first: adds the package to the path
+from tool import JOBS, InAFolder  # first: adds the package to the path
+from overturn.captions import panel_titles
+from overturn.choice import sheet_of
+from overturn.plot import spectra
 from overturn.regions import REGIONS
 from overturn.spectrum_file import Axis, Plane, open_spectrum
 from overturn.ticks import log_ticks
@@ -41,7 +47,7 @@ class Picture(InAFolder):
             change(file)
 
 
-def write_result(file, axes, codes, computed):
+def write_result(file, axes, codes, computed, has_restitution=True):
     """Writes a spectrum over these axes, in which each point is a tile."""
     file.attrs.update({"kind": "overturning spectrum", "format_version": 4})
     for name, values in axes.items():
@@ -50,7 +56,8 @@ def write_result(file, axes, codes, computed):
     file["run/checksum"] = np.broadcast_to(computed, codes.shape).astype(np.uint64).ravel()
     file["run/checksum"].attrs.update({"tile_shape": [1] * codes.ndim, "dimensions": " ".join(axes)})
     add_field(file, "region", codes, NOT_COMPUTED)
-    add_coordinate(file, "restitution", np.full(codes.shape[-4:-2], 0.625), "slenderness", "restitution_of_maximum")
+    if has_restitution:
+        add_coordinate(file, "restitution", np.full(codes.shape[-4:-2], 0.625), "slenderness", "restitution_of_maximum")
 
 
 def attach(data, *dimensions):
@@ -94,14 +101,15 @@ class TestTheMap(Picture):
                                    atol=2 * self.TOLERANCE)
 
     def test_nothing_is_coloured_far_from_computed_values(self):
-        self.spectrum([[S, F_MINUS, U0_MINUS]], frequency=[1.0, 2.0, 10.0])
-        # At most 9/16 from a value: from 0.5 to 1.5, on to 2.5625, and from 9.4375 to 10.5625.
+        frequency = np.append(np.arange(1.0, 14), 17)
+        self.spectrum([[S] * 13 + [F_MINUS]], frequency=frequency)
+        # At most 1 from a value: from 0.5 to 14, and from 16 to 18.
         picture = self.picture()
-        widths = np.array([np.count_nonzero(where(picture, code)) for code in (S, F_MINUS, U0_MINUS)]) / 1e6
-        np.testing.assert_allclose(widths, np.array([1, 1.0625, 1.125]) / 10.0625, atol=self.TOLERANCE)
+        widths = np.array([np.count_nonzero(where(picture, code)) for code in (S, F_MINUS)]) / 1e6
+        np.testing.assert_allclose(widths, np.array([13.5, 2]) / 17.5, atol=self.TOLERANCE)
         self.assertIn("between computed values", self.words())
-        for values in ([1.0, 2.0, 10.0], [10.0, 2.0, 1.0], [0.1, 1.0, 10.0], [-1.0, 0.0, 5.0], [0.0, 3.0]):
-            axis = Axis(np.array(values))
+        for values in ([1.0, 2.0, 10.0], [10.0, 2.0, 1.0], [0.1, 1.0, 10.0], [-1.0, 0.0, 5.0], [0.0, 3.0], frequency):
+            axis = Axis(np.array(values), is_to_scale=True)
             shown = axis.shown(np.sort(values))
             places = axis.middles(1000)
             distance = np.abs(places[:, None] - shown).min(axis=1)
@@ -112,7 +120,7 @@ class TestTheMap(Picture):
             self.assertFalse(axis.is_between(1000)[outside].any(), values)
             self.assertGreaterEqual(axis.limits()[0], 0 if min(values) >= 0 else -2)
         self.assertFalse(Axis(np.linspace(1, 3, 9)).is_between(1000).any())
-        self.assertFalse(Axis(np.array([1.0, 2, 3]), are_counted=True).is_between(1000).any())
+        self.assertFalse(Axis(np.append(np.arange(1.0, 30), 99), are_counted=True).is_between(1000).any())
 
     def test_geometric_values_are_equally_wide_on_a_logarithmic_axis(self):
         self.spectrum([[S], [F_MINUS], [U0_MINUS]], amplitude=[0.1, 1.0, 10.0])
@@ -120,8 +128,31 @@ class TestTheMap(Picture):
                                    atol=self.TOLERANCE)
 
     def test_a_short_axis_of_equal_steps_is_not_geometric(self):
-        self.assertEqual(Axis(np.array([1000.0, 1000.5, 1001.0])).scale, "linear")
-        self.assertEqual(Axis(np.array([10.0, 100.0, 1000.0])).scale, "log")
+        self.assertEqual(Axis(np.array([1000.0, 1000.5, 1001.0]), is_to_scale=True).scale, "linear")
+        self.assertEqual(Axis(np.array([10.0, 100.0, 1000.0]), is_to_scale=True).scale, "log")
+
+    def test_few_values_have_a_band_of_equal_width_and_a_tick_each(self):
+        generator = np.random.default_rng(63)
+        lists = [[7.0], [0.0, 180.0], [1.0, 3.0], [1.0, 1.5, 10.0], [1.0, 2, 5, 10, 20, 50, 100, 200, 500, 1000],
+                 [1000.0, 1000.5, 1001.0], [0.1, 1.0, 10.0], [-1.0, 0.0, 5.0]]
+        lists += [first + np.cumsum(generator.uniform(0.01, 3, generator.integers(2, 9)))
+                  for first in generator.uniform(-1, 5, 20)]
+        for values in [*lists, *(each[::-1] for each in lists)]:
+            axis = Axis(np.array(values))
+            places = axis.cells(2000)[~axis.is_between(2000)]
+            widths = np.bincount(places, minlength=len(values)) / 2000
+            # Blanks take up to a tenth of the axis; it ends with a band on both sides, and a pixel is half per mille.
+            np.testing.assert_allclose(widths, np.full(len(values), widths[0]), atol=1e-3, err_msg=str(values))
+            self.assertGreater(widths.sum(), 0.9 - 1e-3, values)
+            np.testing.assert_array_equal(axis.ticks()[0], np.sort(values))
+            np.testing.assert_allclose(np.array(axis.ticks()[1], float), np.sort(values), rtol=1e-3)
+            np.testing.assert_allclose(axis.value_at(axis.shown(axis.limits())), axis.limits(), atol=1e-9)
+
+    def test_two_values_on_both_axes_are_drawn_as_four_cells(self):
+        self.spectrum([[S, F_MINUS], [U0_PLUS, U0_MINUS]], frequency=[1.0, 100.0], amplitude=[0.3, 2.0])
+        picture = self.picture()
+        areas = [np.count_nonzero(where(picture, code)) / 1e6 for code in (S, F_MINUS, U0_PLUS, U0_MINUS)]
+        np.testing.assert_allclose(areas, (0.9 / 1.9)**2, atol=0.01)
 
     def test_amplitude_grows_upward_and_frequency_to_the_right(self):
         self.spectrum([[S, F_MINUS], [U0_PLUS, U0_MINUS]])
@@ -265,6 +296,14 @@ class TestTheWords(Picture):
         self.assertNotIn("A title", words)
 
 
+    def test_that_the_font_lacks_are_named_once(self):
+        self.spectrum([[S]])
+        run = self.run_tool("spectrum.h5", "--title", "石像石")
+        self.assertEqual(run.returncode, 0)
+        self.assertEqual(run.stderr, "plot_spectrum: the font of Matplotlib lacks 石 像: PNG and PDF pictures have boxes in "
+                                     "their place, SVG pictures have the text.\n")
+
+
 class TestSeveralSpectra(Picture):
     def test_each_has_its_own_panel(self):
         codes = np.array([[S, F_MINUS, U0_PLUS], [S, U0_PLUS, U0_PLUS]])
@@ -300,14 +339,49 @@ class TestSeveralSpectra(Picture):
         self.assertLess(middle[1], 600)
         self.assertIn("one-sine pulse,  ω_p/p = 1,  r = 0.7 r_max", words)
 
-    def test_a_single_dimension_is_no_map(self):
-        self.spectrum([[S]])
-        self.refuses(2, "has frequency only. Give more axes in the job, or use tools/to_csv", "spectrum.h5",
-                     *(f"--index={name}=0" for name in ("slenderness", "restitution_of_maximum", "amplitude")))
+    def test_a_single_dimension_is_a_column(self):
+        self.spectrum([[S], [F_MINUS], [S]], amplitude=[1.0, 2.0, 4.0])
+        one = [f"--index={name}=0" for name in ("slenderness", "restitution_of_maximum", "frequency")]
+        np.testing.assert_allclose(shares(self.picture(*one), [S, F_MINUS]), [2 / 3, 1 / 3], atol=0.01)
+        for name in ("angle", "velocity"):
+            self.change(lambda file: add_field(file, name, np.zeros(file["region"].shape), np.nan))
+        self.refuses(2, "a map needs two dimensions", "spectrum.h5", *one, tool="plot_landing")
+        self.refuses(2, "is a single point", "spectrum.h5", *one, "--index=amplitude=0")
 
-    def test_too_many_are_refused_with_the_choices(self):
-        self.spectrum(np.zeros((1, 13, 2, 2)))
-        self.refuses(2, "--restitution (0 to 12)", "spectrum.h5")
+    def test_of_a_list_of_blocks_has_a_named_row_for_each(self):
+        (self.folder / "list.csv").write_text("name,width,height,restitution_of_maximum,pga,pulse_period\n"
+                                              "urn,0.5,1.5,0.9,0.1,0.4\nbust,0.5,1.6,0.9,0.1,0.4\n")
+        self.overturn("run", "spectrum.h5", job='scene.pulse="one_sine"\nblocks.table="list.csv"\n')
+        words = self.words()
+        for word in ("block", "urn", "bust"):
+            self.assertIn(word, words)
+
+    def test_too_many_for_a_sheet_are_chosen_in_even_steps_which_it_states(self):
+        self.spectrum(np.zeros((2, 5, 2, 2)))
+        statement = "4 of 10 spectra, in even steps; choose others with --slenderness (0 to 1) or --restitution (0 to 4)"
+        with unittest.mock.patch.object(spectra, "MOST_PANELS", 4):
+            self.assertIn(statement, self.output_of("spectrum.h5", "-o", "picture.svg"))
+        words = re.findall(r"<text[^>]*>([^<]+)", (self.folder / "picture.svg").read_text("utf-8"))
+        self.assertIn(statement, " ".join(words))
+        self.assertEqual([word for word in words if word.startswith("α = ")], [
+            f"α = {alpha} rad,  r = {share}r_max = 0.625"
+            for alpha, share in ((0.1, "0.7 "), (0.1, "0.925 "), (0.2, "0.775 "), (0.2, ""))])
+
+    def test_of_a_table_of_twenty_blocks_are_all_drawn_and_named(self):
+        self.overturn("run", "spectrum.h5", "plane.pulse_period.count=3", "plane.pga.count=3",
+                      job=JOBS / "statues.toml")
+        with open_spectrum(self.folder / "spectrum.h5") as file:
+            planes, columns, left_out = sheet_of(file, argparse.Namespace(index=[]), spectra.MOST_PANELS)
+            self.assertEqual((columns, left_out), (5, ""))
+            names = [title.split("\n")[0] for title in panel_titles(planes)]
+        self.assertEqual(names, [f"A-{i:02}" for i in range(1, 21)])
+
+    def test_are_in_as_many_columns_as_the_last_axis_has_values(self):
+        for outer, inner, columns in ((2, 6, 6), (3, 4, 4), (10, 10, 10), (1, 20, 5), (20, 1, 5), (2, 11, 5), (11, 2, 5)):
+            self.spectrum(np.zeros((outer, inner, 2, 2)))
+            with open_spectrum(self.folder / "spectrum.h5") as file:
+                planes, found, left_out = sheet_of(file, argparse.Namespace(index=[]), 100)
+                self.assertEqual((len(planes), found, left_out), (outer * inner, columns, ""))
 
 
 class TestAComputedFile(Picture):

@@ -84,7 +84,7 @@ class TestAPlaneInPhysicalUnits(Sized):
         self.assertLess(left, right - 100)
 
     def test_has_cells_around_descending_values(self):
-        axis = Axis(np.array([9.0, 5.0, 4.0]), are_counted=True)
+        axis = Axis(np.array([9.0, 5.0, 4.0]), are_counted=True, is_to_scale=True)
         np.testing.assert_array_equal(axis.edges, [3.5, 4.5, 7, 11])
         np.testing.assert_array_equal(axis.cells(15), [2, 2] + 5 * [1] + 8 * [0])
 
@@ -99,8 +99,18 @@ class TestAPlaneInPhysicalUnits(Sized):
     def test_has_a_vertical_axis_for_each_slenderness(self):
         self.sized(np.zeros((2, 1, 2, 2)), [2.5, 2.0], [[0.1, 0.3], [0.2, 0.6]])
         panels = spectra.spectrum(self.folder / "spectrum.h5", units="physical")
-        np.testing.assert_allclose([panel.get_ylim() for panel in panels], [[0.0875, 0.3125], [0.175, 0.625]],
+        np.testing.assert_allclose([panel.get_ylim() for panel in panels], [[0.01, 0.39], [0.02, 0.78]],
                                    atol=1e-15)
+
+    def test_has_a_horizontal_axis_for_each_size(self):
+        self.spectrum(np.zeros((2, 1, 2, 9)), size=0.95)
+        periods = np.outer([1, 2], np.geomspace(0.1, 1, 9))
+        for name, values, *dimensions in (("pulse_period", periods, "slenderness", "frequency"),
+                                          ("pga", [0.4, 0.8], "amplitude")):
+            self.change(lambda file: add_coordinate(file, name, values, *dimensions))
+        panels = spectra.spectrum(self.folder / "spectrum.h5", units="physical")
+        half = 10 ** (1 / 16)  # a step, in the logarithm
+        np.testing.assert_allclose([panel.get_xlim() for panel in panels], [[0.1 / half, half], [0.2 / half, 2 * half]])
 
     def test_under_a_record_is_over_the_peak_acceleration(self):
         self.recorded([[S], [F_MINUS], [F_MINUS]])

@@ -84,7 +84,7 @@ TOPPLES = [
     "--set scene.gamma=2 --set scene.nu=1",
     "--width 1 --height 3 --period 1.2 --pulse sine --set scene.cycles=2 --pga-max 1",
     "--width 0.5 --height 2 --period 0.8 --pga 0.2 --pulse rectangular --set scene.gravity=1.62",
-    "--width 60 --height 180 --period 50 --pga 40",
+    "--width 6 --height 18 --period 15.8 --pga 40",
     f"--width 0.6 --height 1.8 {RECORD} --scale 1.5",
     f"--width 0.6 --height 1.8 {RECORD} --pga 0.7 --restitution-of-maximum 0.9",
     f"--width 0.5 --height 2 {RECORD} --scale 2 --set scene.vertical=jobs/synthetic_vertical.AT2",

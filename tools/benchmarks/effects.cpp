@@ -6,17 +6,22 @@
 #include "overturn/problem/given.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <numeric>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -32,6 +37,9 @@ constexpr std::string_view usage =
     "       bench_effects by-hand METHOD SIDE TOLERANCE nothing|region|impacts\n"
     "           runs the kernel without the sweep (one_sine, nonlinear, avx2): alone, with the\n"
     "           regions, or counting impacts\n"
+    "       bench_effects each\n"
+    "           runs each line of the standard input in a process of its own; prints \"ended\" "
+    "after each\n"
     "       bench_effects pulses\n"
     "           lists the names of the pulses\n";
 
@@ -172,8 +180,33 @@ Work work_from(const std::vector<std::string>& words)
     return work;
 }
 
+int run(const std::vector<std::string>& words);
+
+/// A process under Valgrind starts once for all lines. Every line finds the state of the start, so
+/// that its counts do not depend on the others.
+int run_each()
+{
+    std::cout << "ready" << std::endl; // the first output allocates its buffer
+    for (std::string line; std::getline(std::cin, line);) {
+        const pid_t child = fork();
+        if (child == 0) {
+            std::istringstream words(line);
+            return run({std::istream_iterator<std::string>(words), {}});
+        }
+        int status = 0;
+        if (child < 0 || waitpid(child, &status, 0) != child || status != 0) {
+            throw std::runtime_error("no result for \"" + line + "\"");
+        }
+        std::cout << "ended" << std::endl; // and its counts are written
+    }
+    return 0;
+}
+
 int run(const std::vector<std::string>& words)
 {
+    if (words == std::vector<std::string>{"each"}) {
+        return run_each();
+    }
     if (words == std::vector<std::string>{"pulses"}) {
         for (const std::string_view name : names_of<PulseKind>) {
             std::cout << name << "\n";
@@ -184,9 +217,9 @@ int run(const std::vector<std::string>& words)
     const std::size_t before = bytes_taken;
     const TileFields fields = measured(work);
     const std::size_t bytes = bytes_taken - before;
-    std::cout << "{\"points\": " << work.tile.points() << ", \"bytes\": " << bytes
-              << ", \"fields\": " << fields.values.size() << ", \"compiler\": \""
-              << OVERTURN_BENCHMARK_COMPILER << "\"}\n";
+    std::cout << "{\"process\": " << getpid() << ", \"points\": " << work.tile.points()
+              << ", \"bytes\": " << bytes << ", \"fields\": " << fields.values.size()
+              << ", \"compiler\": \"" << OVERTURN_BENCHMARK_COMPILER << "\"}\n";
     return 0;
 }
 

@@ -4,6 +4,7 @@ import json
 import pathlib
 import re
 import shutil
+import subprocess
 import tempfile
 
 from building import add_build_argument, add_output_argument, build, fail, run_or_fail, write_results
@@ -31,20 +32,35 @@ def add_arguments(parser):
     add_build_argument(parser)
 
 
-def measure(program, *words):
-    """The output of bench_effects for one call, and the number of instructions of the sweep."""
-    valgrind = shutil.which("valgrind") or fail("valgrind not found; install it by "
-                                                "tools/install_dependencies bench")
-    with tempfile.TemporaryDirectory() as folder:
-        counts = pathlib.Path(folder) / "counts"
-        finished = run_or_fail(
-            [valgrind, "--tool=callgrind", f"--callgrind-out-file={counts}",
-             "--toggle-collect=overturn::benchmarks::measured(*", program, *words],
-            "counting instructions", capture_output=True)
-        instructions = re.search(r"^(?:summary|totals): (\d+)", counts.read_text(), re.MULTILINE)
-    if not instructions or not int(instructions.group(1)):
-        fail("Valgrind counted no instructions of the sweep. Does the program have symbols?")
-    return {**json.loads(finished.stdout), "instructions": int(instructions.group(1))}
+class Counter:
+    """Counts the instructions of bench_effects under Valgrind, which starts once: the program forks for each call."""
+
+    def __init__(self, program):
+        valgrind = shutil.which("valgrind") or fail("valgrind not found; install it by "
+                                                    "tools/install_dependencies bench")
+        self.folder = tempfile.TemporaryDirectory()
+        self.process = subprocess.Popen(
+            [valgrind, "--quiet", "--tool=callgrind", f"--callgrind-out-file={self.folder.name}/%p",
+             "--toggle-collect=overturn::benchmarks::measured(*", program, "each"],
+            text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.process.stdout.readline() or fail("bench_effects did not start; see its output above")
+
+    def close(self):
+        self.process.communicate()
+        self.folder.cleanup()
+
+    def measure(self, *words):
+        """The output of bench_effects for one call, and the number of instructions of the sweep."""
+        print(*words, file=self.process.stdin, flush=True)
+        line, ended = self.process.stdout.readline(), self.process.stdout.readline()
+        if not ended:
+            fail(f"bench_effects {' '.join(map(str, words))} failed; see its output above")
+        found = json.loads(line)
+        counts = (pathlib.Path(self.folder.name) / str(found["process"])).read_text()
+        instructions = re.search(r"^(?:summary|totals): (\d+)", counts, re.MULTILINE)
+        if not instructions or not int(instructions.group(1)):
+            fail("Valgrind counted no instructions of the sweep. Does the program have symbols?")
+        return found | {"instructions": int(instructions.group(1))}
 
 
 def other_pulses(program):
@@ -64,12 +80,13 @@ def scenes(program):
 
 
 def records(program, options):
+    counter = Counter(program)
     rows = []
     for method in METHODS:
         minimal = None
         for adds, pulse, theory, fields in scenes(program):
-            found = measure(program, "sweep", method, pulse, theory, KERNEL, options.points,
-                            f"{options.tolerance:.6e}", *fields)
+            found = counter.measure("sweep", method, pulse, theory, KERNEL, options.points,
+                                    f"{options.tolerance:.6e}", *fields)
             instructions = found["instructions"] / found["points"]
             minimal = instructions if minimal is None else minimal
             rows.append({"method": method, "pulse": pulse, "theory": theory,
@@ -77,6 +94,7 @@ def records(program, options):
                          "instructions_per_point": instructions,
                          "price_per_point": instructions - minimal,
                          "bytes_per_point": found["bytes"] / found["points"]})
+    counter.close()
     return rows, found["compiler"]
 
 

@@ -1,5 +1,5 @@
-"""overturn from Python: the outcome of single blocks (evaluate), the program (run, check), result
-files (open), fragility curves (fragility), rates of overturning at a site (risk), pictures (plot), recorded motions
+"""overturn from Python: the outcome of single blocks (evaluate), the program (run, check, topple), result files
+(open), fragility curves (fragility), rates of overturning at a site (risk), pictures (plot), recorded motions
 (read_record) and those of floors (floor_motion). The other modules are shared by the tools.
 
 Modules are imported when they are used, because every tool imports this package."""
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from overturn.program import ProgramError as ProgramError
     from overturn.program import check as check
     from overturn.program import run as run
+    from overturn.program import topple as topple
     from overturn.records import Record as Record
     from overturn.records import RecordError as RecordError
     from overturn.records import read_record as read_record
@@ -37,6 +38,7 @@ _MODULE_OF = {
     "open": "datasets",
     "run": "program",
     "check": "program",
+    "topple": "program",
     "ProgramError": "program",
     "fragility": "fragility_curve",
     "Fragility": "fragility_curve",

@@ -28,6 +28,8 @@ class _Component(TypedDict):
     format: str
     is_uncorrected: bool
     header: list[str]
+    motion_of: str
+    ground_pga: float | None
     remarks: list[str]
 
 supports_numpy_2: bool
@@ -37,6 +39,7 @@ unsafe_regions: dict[str, int]
 def scene_of_pulse(pulse: str, theory: str, gravity: float, shape: Mapping[str, float], /) -> Scene: ...
 def scene_of_record(horizontal: ArrayLike, second: ArrayLike, upwards: ArrayLike, time_step: float, theory: str,
                     gravity: float, /) -> Scene: ...
+def with_motion_of(scene: Scene, motion_of: str, /) -> Scene: ...
 def numerics(scene: Scene, method: str, tolerance: float | None, resolve: bool, /) -> Numerics: ...
 def evaluate(scene: Scene, numerics: Numerics, columns: Mapping[str, Sequence[float] | NDArray[float64]],
              /) -> _Fields: ...

@@ -9,6 +9,7 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from overturn.arguments import ArgumentError, numbers
+from overturn.motion_words import FLOOR
 
 PER_M_PER_S2 = {"m/s2": 1, "cm/s2": 100, "mm/s2": 1000, "gal": 100}
 MOTIONS = "Record or FloorMotion"
@@ -62,6 +63,15 @@ def accelerations_of(components, time_step=None, units=None, gravity=9.81):
                for name, trace in traces.items()}
     _check(samples)
     return samples, time_step
+
+
+def motion_of_components(components, given):
+    """Returns "ground" or "floor": what is given, or what one of the components states. Raises ArgumentError if both
+    differ."""
+    stated = FLOOR if any(getattr(value, "motion_of", None) == FLOOR for value in components.values()) else None
+    if stated and given not in (None, stated):
+        raise ArgumentError(f"motion_of = {given!r}, but a component is the motion of a floor. Remove motion_of.")
+    return given or stated or "ground"
 
 
 def _traces_of_motions(components, units):

@@ -1,4 +1,4 @@
-"""Checks of the arguments of functions that compute."""
+"""Checks of the arguments of functions."""
 
 import numpy as np
 
@@ -16,6 +16,12 @@ def refuse(arguments, reason):
     """Raises ArgumentError if there is an argument."""
     if arguments:
         raise ArgumentError(f"{next(iter(arguments))} {reason}. Remove it.")
+
+
+def expect_dataset(dataset):
+    """Raises ValueError unless this is a data set of xarray."""
+    if not hasattr(dataset, "data_vars"):
+        raise ValueError(f"{dataset!r:.60} is no data set. Give what overturn.open() returns for the path of a result.")
 
 
 def number(name, value):

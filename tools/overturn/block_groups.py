@@ -73,18 +73,18 @@ def _labels(column, values):
     known = np.isfinite(values)
     numbers = values[known]
     if len(np.unique(numbers)) <= MOST_NUMBERS:
-        labels[known] = _texts(numbers, 6)
+        labels[known] = texts_of(numbers, 6)
         return labels
     ends = np.quantile(numbers, np.arange(1, RANGES) / RANGES)
     place = np.searchsorted(ends, numbers)
     of_range = [np.flatnonzero(place == each) for each in sorted(set(place))]
-    texts = _texts(np.array([end(numbers[some]) for some in of_range for end in (np.min, np.max)]), 4)
+    texts = texts_of(np.array([end(numbers[some]) for some in of_range for end in (np.min, np.max)]), 4)
     for i, some in enumerate(of_range):
         labels[np.flatnonzero(known)[some]] = f"{texts[2 * i]} to {texts[2 * i + 1]}"
     return labels
 
 
-def _texts(numbers, digits):
+def texts_of(numbers, digits):
     """Returns the numbers as texts of at least so many digits, by which different numbers differ."""
     different = len(np.unique(numbers))
     for enough in range(digits, 18):

@@ -5,8 +5,9 @@ import math
 import pathlib
 
 import numpy as np
-from overturn.fields import count_tiles
-from overturn.result_file import escaped, title_of
+from overturn.fields import count_computed
+from overturn.motion_words import is_of_floor, worded
+from overturn.result_file import escaped, title_of, told_apart
 from overturn.spectrum_file import JOB, PHYSICAL, RATES, STRENGTHS
 
 PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
@@ -53,6 +54,23 @@ def motion_names(file):
     return short if len(set(short.values())) == len(names) else names
 
 
+@functools.cache
+def block_names(file):
+    """Returns the name of each block by its number: the first text in its table that no two blocks share. None if there
+    is no such column."""
+    for name in file.coordinates if "block" in file else ():
+        if file[name].dtype == object and name != "motion_name" and file[name].dimensions == file["block"].dimensions:
+            texts = told_apart(np.atleast_1d(file[name][:]).tolist(), MOST_LETTERS)
+            if len({*texts}) == len(texts) and all(texts):
+                return dict(zip(np.atleast_1d(file["block"][:]).tolist(), texts))
+    return None
+
+
+def names_of(file, name):
+    """Returns the names of the values of a dimension by their numbers, or None."""
+    return {"motion": motion_names, "block": block_names}.get(name, lambda _: None)(file)
+
+
 def value_text(file, name, place):
     """Returns the value of a dimension at an index."""
     return motion_names(file)[file[name][place].item()] if name == "motion" else f"{file[name][place]:g}"
@@ -64,10 +82,12 @@ def slenderness_text(alpha, units):
 
 
 def quantity_text(file, name, value):
-    """Returns a quantity and its value."""
+    """Returns a quantity and its value; of a block, its name, if it has one."""
+    if name == "block" and block_names(file):
+        return block_names(file)[value]
     units = file[name].attrs.get("units", "1")
     units = UNITS.get(name, UNITS.get(units, units))
-    return f"{SYMBOLS.get(name, name)} = {value:.4g} {units}".rstrip()
+    return f"{worded(file.attrs, SYMBOLS.get(name, name))} = {value:.4g} {units}".rstrip()
 
 
 def block_text(plane, units):
@@ -92,7 +112,8 @@ def motion_text(plane, units):
         name = "…" + name[1 - MOST_LETTERS:]  # names of one database differ in their ends
     if "scale" not in plane.quantities(units):
         return name
-    words = (f"PGA {plane.value('record_pga'):.3g} g", plane.file["record_pga"].attrs.get("comment", ""))
+    words = (f"{worded(plane.file.attrs, 'PGA')} {plane.value('record_pga'):.3g} g",
+             plane.file["record_pga"].attrs.get("comment", ""))
     return f"{name}, {' '.join(filter(None, words))}"
 
 
@@ -101,6 +122,8 @@ def other_words(plane, units):
     file, shown = plane.file, {plane.across, plane.quantities()[1]}
     elsewhere = ("motion", "slenderness", "restitution", "restitution_of_maximum")
     names = [name for name in plane.index if name not in elsewhere]
+    if "block" in file and not file["block"].dimensions:  # selected in a data set
+        names.append("block")
     for kind in (STRENGTHS, SIZES if is_recorded(file) else RATES):
         if not {*shown, *names} & {*kind}:
             known = [name for name in file.coordinates if name in kind and plane.value(name) is not None]
@@ -128,6 +151,7 @@ def subtitle(planes, units=JOB):
     if not is_recorded(file):
         words.append(PULSES.get(file.text("pulse"), ground_text(file) + " pulse"))
     words += [f"{name} {float(file.attrs[name]):g}" for name in PULSE_NUMBERS if name in file.attrs]
+    words += ["motion of a floor"] * is_of_floor(file.attrs)
     if is_linear(file):
         words.append("linear theory")
     for column in zip(*(spectrum_words(plane, units) for plane in planes)):
@@ -138,8 +162,8 @@ def subtitle(planes, units=JOB):
 
 def unfinished_words(file):
     """Returns the note on missing tiles, if there are any."""
-    done, tiles = count_tiles(file)
-    return [f"unfinished: {done} of {tiles} tiles computed"] * (done < tiles)
+    done, number, what = count_computed(file)
+    return [f"unfinished: {done} of {number} {what} computed"] * (done < number)
 
 
 def heading(planes):

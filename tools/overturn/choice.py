@@ -1,13 +1,14 @@
 """Choice of the planes of a file to show: an option per dimension gives an index."""
 
 import argparse
-import itertools
 import math
 
+import numpy as np
 from overturn.captions import value_text
 from overturn.spectrum_file import STRENGTHS, Plane
 from overturn.tool import USAGE, ToolError
 
+MOST_COLUMNS = 10  # of a sheet
 OPTIONS = ("motion", "slenderness", "restitution")
 
 
@@ -56,32 +57,48 @@ def chosen(file, arguments):
 
 def axes_of(file, choices):
     """Returns the dimensions along the horizontal and the vertical axis: the last two of several values without a
-    chosen index. If there are too few, they are of one value, or numbers of motions."""
+    chosen index. If there are too few, they are of one value, or numbers of motions; an only one is vertical."""
     free = [name for name in file.dimensions if name not in choices and name != "crossing"]
     axes = sorted(free, key=lambda name: (file.sizes[name] > 1 and name != "motion", free.index(name)))
     if "crossing" in file.dimensions:
         return axes[-1] if axes else None, "crossing"
-    if len(axes) < 2:
-        raise ToolError(f"a map needs two dimensions, but this choice of \"{file.filename}\" has "
-                        f"{axes[0] if axes else 'none'}{' only' * bool(axes)}. Give more axes in the job, or use "
-                        "tools/to_csv or overturn.open() in Python.", USAGE)
+    if not axes:
+        raise ToolError(f"this choice of \"{file.filename}\" is a single point. Give axes in the job, or use tools/to_csv "
+                        "or overturn.open() in Python.", USAGE)
+    if len(axes) == 1:
+        return None, axes[0]
     up, across = sorted(axes[-2:], key=free.index)
     return (up, across) if across in STRENGTHS else (across, up)
 
 
-def planes_of(file, arguments, most=1):
-    """Returns the chosen planes in the order of their panels, and the number of columns: the last dimension of several
-    values if there are two or more, otherwise nearly a square. Raises an error if these are more than `most`."""
+def plane_of(file, arguments):
+    """Returns the only chosen plane. Raises an error if there are several, or if it has one axis only."""
+    planes, _, _ = sheet_of(file, arguments, 1)
+    if planes[0].across is None:
+        raise ToolError(f"a map needs two dimensions, but this choice of \"{file.filename}\" has {planes[0].up} only. Give "
+                        "more axes in the job.", USAGE)
+    return planes[0]
+
+
+def sheet_of(file, arguments, most):
+    """Returns the chosen planes in the order of their panels, the number of columns, and a note on what is left out.
+
+    Columns are the last dimension of several values if there are two or more, otherwise the sheet is nearly a square.
+    Of more than `most` planes, so many are chosen in even steps; if most is 1, they are refused."""
     choices = chosen(file, arguments)
     axes = axes_of(file, choices)
     others = {name: [choices[name]] if name in choices else range(file.sizes[name])
               for name in file.dimensions if name not in axes}
     several = {name: len(places) for name, places in others.items() if len(places) > 1}
     count = math.prod(several.values())
-    if count > most:
-        options = [f"{option_of(name)} (0 to {size - 1})" for name, size in several.items()]
-        raise ToolError(f"there are {count} spectra, but the output is limited to {most}; choose "
-                        f"with {' or '.join(options)}.", USAGE)
-    planes = [Plane(file, dict(zip(others, places)), *axes) for places in itertools.product(*others.values())]
-    lengths = list(several.values())
-    return planes, lengths[-1] if len(lengths) > 1 and lengths[-1] <= 4 else math.ceil(math.sqrt(count))
+    options = " or ".join(f"{option_of(name)} (0 to {size - 1})" for name, size in several.items())
+    if count > most == 1:
+        raise ToolError(f"there are {count} spectra, but the output is limited to 1; choose with {options}.", USAGE)
+    places = [np.unravel_index(number, [len(each) for each in others.values()])
+              for number in np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))]
+    planes = [Plane(file, {name: int(each[place]) for (name, each), place in zip(others.items(), plane)}, *axes)
+              for plane in places]
+    columns, lengths = math.ceil(math.sqrt(len(planes))), list(several.values())
+    if len(lengths) > 1 and count <= most and max(lengths[-1], count // lengths[-1]) <= MOST_COLUMNS:
+        columns = lengths[-1]
+    return planes, columns, f"{most} of {count} spectra, in even steps; choose others with {options}" * (count > most)

@@ -1,4 +1,5 @@
-"""Writes a spectrum as CSV, one row per point, for use without HDF5."""
+"""Writes a result file as CSV, for use without HDF5: one row per point of a spectrum, flip of a boundary, sample of a
+history or setting of an accuracy study."""
 
 import csv
 import itertools
@@ -8,10 +9,12 @@ import numpy as np
 
 from overturn.choice import add_choice_arguments, chosen
 from overturn.fields import read_field
-from overturn.output_file import new_file
-from overturn.result_file import damage_reported
-from overturn.spectrum_file import open_spectrum
-from overturn.tool import parse_with_output, parser_of
+from overturn.file_variables import text_of
+from overturn.motion_words import VARIABLES, column_named
+from overturn.output_file import BEGINNING, new_file
+from overturn.result_file import SPECTRUM, damage_reported, open_result
+from overturn.spectrum_file import COUNTED
+from overturn.tool import USAGE, ToolError, parse_with_output, parser_of
 from overturn.units import LABELS
 
 EXAMPLE = """\
@@ -19,70 +22,182 @@ example:
   overturn run jobs/smoke.toml                   # writes smoke.h5
   tools/to_csv smoke.h5                          # writes smoke.csv
 
-Columns: the dimensions, with their names in the file (such as frequency and amplitude), and every
-field of the file, with the codes of docs/results.md. Rows: the first column varies fastest.
-Numbers have enough digits to be read back exactly.
+Columns: the dimensions, with their names in the file (such as frequency and amplitude); all other
+coordinates, such as names of blocks and records; every field of the file, with the codes of
+docs/results.md. Under the motion of a floor, pga is called pfa. Rows: the first column varies
+fastest. Numbers have enough digits to be read back exactly.
 To write a part of the points only, choose an index along some dimensions:
-  tools/to_csv four_axes.h5 --slenderness 0 --restitution 2 -o third.csv"""
+  tools/to_csv four_axes.h5 --slenderness 0 --restitution 2 -o third.csv
 
-REGION = "region"  # a column of every table
-# The names of all columns that a table may have; see docs/results.md.
+A boundary has a row for each flip; a line without a flip has one row, whose region_below is that at
+the first amplitude. A history has a row for each sample or, with --events, for each event. An
+accuracy study has a row for each setting; what it gives for several quantiles, distances or regions
+has a column for each:
+  tools/to_csv history.h5 --events -o events.csv"""
+
+BOUNDARY, HISTORY, STUDY = "overturning boundary", "rocking history", "accuracy study"
+REGION = "region"  # a column of every table of a spectrum
+# The names of all columns of fields that a table of a spectrum may have; see docs/results.md.
 FIELDS = {REGION, "angle", "velocity", "margin", "error", "peak", "fall_time", "friction",
           "normal", "impacts", "steps", "status", "evaluated"}
-ROW = re.compile("[-+.0-9einfa,]*")  # of numbers, inf and nan
-COLUMNS = {*LABELS, *FIELDS, "width", "height", "half_width", "half_height", "motion", "block",
-           "direction", "center_offset", "center_height", "radius_of_gyration", "incline", "slenderness_plus",
-           "slenderness_minus", "size_plus", "size_minus"}
+# The last columns of every kind of table, and one that it always has.
+LAST = ((FIELDS, REGION), ({"flip_amplitude", "flip_pga", "region_below", "region_above"}, "flip_amplitude"),
+        ({"acceleration", "angle", "friction", "ground", "q", "velocity"}, "angle"),
+        ({f"{name}_{side}" for side in ("before", "after")
+          for name in ("acceleration", "angle", "friction", "ground", "q", "velocity")}, "angle_after"))
+FIRST = {*LABELS, "width", "height", "half_width", "half_height", *COUNTED, "crossing", "time", "setting",
+         "direction", "center_offset", "center_height", "radius_of_gyration", "incline", "slenderness_plus",
+         "slenderness_minus", "size_plus", "size_minus", "frequency_parameter_minus"}
+NUMBER = re.compile("[-+.0-9einfa]*")  # inf and nan, too
 
 
-def parts_of(file, choices):
+def dimensions_of(file):
+    """Returns the dimensions along which there is a row for each place."""
+    return {HISTORY: ("time",), STUDY: ("setting",)}.get(file.text("kind"), file.dimensions)
+
+
+def fields_of(file):
+    dimensions = dimensions_of(file)
+    return [name for name, each in file.items() if name not in file.coordinates and each.dimensions == dimensions]
+
+
+def parts_of(file, dimensions, choices):
     """Yields indices of all points, part by part, because they may not fit in memory."""
-    steps = [1 for _ in file.dimensions]
+    sizes = file.sizes
+    steps = [1 for _ in dimensions]
     if steps:
-        steps[-1] = file.sizes[file.dimensions[-1]]
+        steps[-1] = sizes[dimensions[-1]]
     if len(steps) > 1:
-        steps[-2] = file[REGION].rows_of_chunk(file.dimensions[-2])
+        steps[-2] = file[fields_of(file)[0]].rows_of_chunk(dimensions[-2])
     yield from itertools.product(*(
         [slice(choices[name], choices[name] + 1)] if name in choices
-        else [slice(first, first + step) for first in range(0, file.sizes[name], step)]
-        for name, step in zip(file.dimensions, steps)))
+        else [slice(first, min(first + step, sizes[name])) for first in range(0, sizes[name], step)]
+        for name, step in zip(dimensions, steps)))
+
+
+def values_at(file, name, dimensions, part):
+    """Returns the values of a variable at some points."""
+    variable = file[name]
+    places = dict(zip(dimensions, part))
+    index = tuple(places[each] for each in variable.dimensions)
+    values = read_field(file, name, index) if file.has_tiles and name not in file.coordinates else variable[index]
+    order = sorted(range(values.ndim), key=lambda axis: dimensions.index(variable.dimensions[axis]))
+    lengths = [each.stop - each.start for each in part]
+    shape = [length if each in variable.dimensions else 1 for each, length in zip(dimensions, lengths)]
+    return np.broadcast_to(values.transpose(order).reshape(shape), lengths)
+
+
+def are_integers(file, name):
+    """Whether a column of numbers of type double is written as integers: numbers of blocks, records and flips, and
+    columns of a table of blocks that are no quantities of overturn."""
+    variable = file[name]
+    if name in (*COUNTED, "crossing"):
+        return True
+    return (variable.attrs.get("long_name") == "column of the table" and name not in FIRST
+            and variable.dtype.kind == "f" and bool((variable[:] % 1 == 0).all()))
 
 
 def rows_of(file, choices):
-    names = file.fields()
-    yield [*reversed(file.dimensions), *names]
-    for part in parts_of(file, choices):
+    dimensions = dimensions_of(file)
+    others = [name for name in file.coordinates if name not in dimensions and {*file[name].dimensions} <= {*dimensions}]
+    names = [*reversed(dimensions), *others, *fields_of(file)]
+    yield [column_named(file.attrs, name) for name in names]
+    integers = {name for name in [*dimensions, *others] if are_integers(file, name)}
+    for part in parts_of(file, dimensions, choices):
         with damage_reported(file.filename):
-            axes = np.meshgrid(*(file[name][each] for name, each in zip(file.dimensions, part)), indexing="ij")
-            columns = [*reversed(axes), *(read_field(file, name, part) for name in names)]
-        yield from zip(*(column.ravel().tolist() for column in columns))
+            columns = [values_at(file, name, dimensions, part) for name in names]
+        kept = np.ones(columns[0].shape, bool)
+        if "crossing" in dimensions:  # beyond the last flip there is nothing, but each line has a row
+            columns_of = dict(zip(names, columns))
+            kept = np.isfinite(columns_of["flip_amplitude"]) | (columns_of["crossing"] == 0)
+        yield from zip(*((column[kept].astype(int) if name in integers else column[kept]).tolist()
+                         for name, column in zip(names, columns)))
+
+
+def rows_of_study(file):
+    """A row for each setting; what varies along a further dimension has a column for each of its values."""
+    columns = {"setting": np.arange(file.sizes["setting"])}
+
+    def add(name, values):
+        columns[name] = values.astype(int) if (values % 1 == 0).all() else values
+    for name, variable in file.items():
+        further = [each for each in variable.dimensions if each != "setting"]
+        if name in file.coordinates or not {"setting"} & {*variable.dimensions}:
+            continue
+        if not further:
+            add(name, variable[:])
+        for place, label in enumerate(labels_of(file, further[0]) if further else ()):
+            add(f"{name}_{label}", variable[:][:, place])
+    yield columns.keys()
+    yield from zip(*(column.tolist() for column in columns.values()))
+
+
+def labels_of(file, name):
+    if name == REGION:
+        meanings = dict(zip(file[name].attrs["flag_values"], file[name].attrs["flag_meanings"].split()))
+        return [meanings[code] for code in file[name][:]]
+    return [f"{value:g}" for value in file[name][:]]
+
+
+def rows_of_events(file):
+    events = file.file["events"]
+    kinds = text_of(events["kind"], "flag_meanings").split()
+    columns = {"time": events["time"][:], "kind": np.array(kinds, object)[events["kind"][:]],
+               **{name: events[name][:] for name in events if name.endswith(("_before", "_after"))}}
+    yield [column_named(file.attrs, name) for name in columns]
+    yield from zip(*(column.tolist() for column in columns.values()))
 
 
 def is_own(beginning):
-    """Whether a file begins with the names of such columns, dimensions first, and rows of numbers."""
-    header, *rows = beginning.decode(errors="replace").split("\n")
-    names = header.split(",")
-    fields = len(FIELDS.intersection(names))
-    return (REGION in names and COLUMNS.issuperset(names) and FIELDS.issuperset(names[-fields:])
-            and all(row.count(",") == header.count(",") and ROW.fullmatch(row) for row in rows[:-1]))
+    """Whether a file begins with the names of such columns, a dimension first and fields last, and with rows that have
+    numbers in both."""
+    try:
+        rows = list(csv.reader(beginning.decode(errors="replace").split("\n")))
+    except csv.Error:
+        return False
+    rows = [row for row in (rows[:-1] if len(beginning) >= BEGINNING else rows) if row]
+    header = [VARIABLES.get(name, name) for name in rows[0]] if rows else [""]
+    if header[0] not in FIRST:
+        return False
+    if header[0] == "setting":
+        last = len(header)
+    else:
+        last = next((len([*itertools.takewhile(names.__contains__, reversed(header))]) for names, always in LAST
+                     if always in header and header[-1] in names), 0)
+    numbers = [0, *range(len(header) - last, len(header))]
+    return last > 0 and all(len(row) == len(header) and all(NUMBER.fullmatch(row[place]) for place in numbers)
+                            for row in rows[1:])
 
 
-def write(file, choices, path):
+def write(rows, path):
     with new_file(path, "a table of tools/to_csv", is_own) as part, \
-            open(part, "w", newline="", encoding="ascii") as text:
-        csv.writer(text, lineterminator="\n").writerows(rows_of(file, choices))
+            open(part, "w", newline="", encoding="utf-8") as text:
+        csv.writer(text, lineterminator="\n").writerows(rows)
     print(path)
 
 
 def read_arguments(argv):
-    parser = parser_of("to_csv", __doc__, EXAMPLE, "overturn run")
+    parser = parser_of("to_csv", __doc__, EXAMPLE, "overturn run, boundary, history or accuracy")
     add_choice_arguments(parser)
+    parser.add_argument("--events", action="store_true", help="of a history: write its events, not its samples")
     return parse_with_output(parser, argv, "FILE.csv", "the table")
+
+
+def table_of(file, arguments):
+    """Returns the rows of the table, the names of its columns first."""
+    kind = file.text("kind")
+    if arguments.events:
+        if kind != HISTORY:
+            raise ToolError(f"--events: \"{file.filename}\" is no history. Omit it.", USAGE)
+        return rows_of_events(file)
+    return rows_of_study(file) if kind == STUDY else rows_of(file, chosen(file, arguments))
 
 
 def main(argv=None):
     arguments = read_arguments(argv)
-    with open_spectrum(arguments.file) as file:
+    with open_result(arguments.file, (SPECTRUM, BOUNDARY, HISTORY, STUDY), "a result of overturn") as file:
         with damage_reported(arguments.file):
-            choices = chosen(file, arguments)
-        write(file, choices, arguments.output)
+            if file.text("kind") == SPECTRUM and REGION not in file:
+                raise ToolError(f"\"{arguments.file}\": this file has no field region; add it to output.fields.")
+            rows = table_of(file, arguments)
+        write(rows, arguments.output)

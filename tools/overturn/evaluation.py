@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypedDict
 import numpy as np
 
 from overturn import core
-from overturn.accelerations import accelerations_of
+from overturn.accelerations import accelerations_of, motion_of_components
 from overturn.arguments import ArgumentError, expect_word, given, number, numbers, refuse
 
 if TYPE_CHECKING:
@@ -60,6 +60,7 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
              second_component: ArrayLike | Motion | Trace | Stream | None = None,
              vertical: ArrayLike | Motion | Trace | Stream | None = None, time_step: float | None = None,
              units: str | None = None, scale: ArrayLike | None = None,
+             motion_of: str | None = None,
              theory: str = "nonlinear", method: str = "taylor", tolerance: float | None = None,
              resolve: bool = False, gravity: float = 9.81) -> Outcome:
     """Computes what becomes of blocks, each under its own pulse, or all under one record.
@@ -92,6 +93,9 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
             Traces.
         time_step: between two samples [s]; of arrays.
         scale*: factor on all accelerations [1]; or pga*, the peak of the scaled record over g [1].
+    Either:
+        motion_of: "ground" or "floor", for the words of warnings; pga* is the peak acceleration of this. By default
+            that of the record, which floor_motion() and read_record() state, or "ground".
     The computation:
         theory: "nonlinear" or "linear".
         method: "taylor", or "rk45" under pulses.
@@ -115,7 +119,7 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
     shape_numbers = given(window=window, cycles=cycles, gamma=gamma, nu=nu)
     single = {name: number(name, value) for name, value in given(
         **shape_numbers, time_step=time_step, gravity=gravity, tolerance=tolerance).items()}
-    for name, value in {**given(pulse=pulse), "theory": theory, "method": method}.items():
+    for name, value in {**given(pulse=pulse, motion_of=motion_of), "theory": theory, "method": method}.items():
         expect_word(name, value)
     of_record = given(second_component=second_component, vertical=vertical, time_step=time_step, units=units,
                       scale=scale)
@@ -129,9 +133,9 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
                                     {name: single[name] for name in shape_numbers})
     else:
         refuse({**given(pulse=pulse), **of_pulse, **shape_numbers}, "cannot be combined with record")
-        components, step = accelerations_of(
-            given(record=record, second_component=second_component, vertical=vertical), single.get("time_step"),
-            units, single["gravity"])
+        motions = given(record=record, second_component=second_component, vertical=vertical)
+        motion_of = motion_of_components(motions, motion_of)
+        components, step = accelerations_of(motions, single.get("time_step"), units, single["gravity"])
         if step is None or (scale is None) == (pga is None):
             raise ArgumentError("a record needs time_step, unless it is a Record, a FloorMotion or a Trace, and either "
                                 "scale or pga.")
@@ -140,6 +144,7 @@ def evaluate(*, width: ArrayLike | None = None, height: ArrayLike | None = None,
                                      components.get("vertical", []), step, theory, single["gravity"])
     if not isinstance(resolve, (bool, np.bool_)):
         raise ArgumentError(f"resolve = {resolve!r} is neither True nor False.")
+    scene = core.with_motion_of(scene, motion_of or "ground")
     numerics = core.numerics(scene, method, single.get("tolerance"), bool(resolve))
     return _evaluated(scene, numerics, columns)
 

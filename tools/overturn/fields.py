@@ -20,10 +20,10 @@ def computed_tiles(file):
     return checksums.reshape(tiles) != 0
 
 
-def count_tiles(file):
-    """Returns the number of computed tiles and of all tiles."""
-    tiles = computed_tiles(file)
-    return int(np.count_nonzero(tiles)), tiles.size
+def count_computed(file):
+    """Returns the numbers of computed tiles and of all tiles, and what these are; of a data set, they are points."""
+    is_computed = computed_tiles(file) if file.has_tiles else file.computed_points()
+    return int(np.count_nonzero(is_computed)), is_computed.size, "tiles" if file.has_tiles else "points"
 
 
 def read_field(file, name, index=()):
@@ -32,6 +32,8 @@ def read_field(file, name, index=()):
     given = dict(zip(field.dimensions, index))
     sizes = file.sizes
     values = np.array(field[index])
+    if not file.has_tiles:
+        return values
     tiles = [np.atleast_1d(np.arange(sizes[dimension])[given.get(dimension, slice(None))]) // side
              if dimension in field.dimensions else [0] for dimension, side in zip(file.dimensions, file.tile)]
     values[~computed_tiles(file)[np.ix_(*tiles)].reshape(values.shape)] = field.fill

@@ -55,7 +55,8 @@ class Result(Mapping):
         named = dict.fromkeys(word for data in file.values() for word in text_of(data, "coordinates").split())
         self.coordinates = [*named, *(name for name, each in self.items() if each.dimensions == (name,))]
         self.dimensions, self.tile = (), ()  # of the fields of a spectrum or a boundary
-        if text_of(file, "kind") in WITH_TILES:
+        self.has_tiles = text_of(file, "kind") in WITH_TILES
+        if self.has_tiles:
             checksums = self.run.get("checksum")
             if getattr(checksums, "dtype", None) != "uint64" or checksums.ndim != 1:
                 raise OSError(f"\"{file.filename}\" lacks run/checksum, which marks the computed tiles")

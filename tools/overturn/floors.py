@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import bisect
 import dataclasses
+import os
 import warnings
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from scipy.linalg import expm
@@ -13,12 +14,15 @@ from scipy.signal import lfilter
 
 from overturn.accelerations import accelerations_of
 from overturn.arguments import ArgumentError, number, numbers
+from overturn.motion_words import FLOOR
+from overturn.output_file import write_text
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from overturn.accelerations import Motion, Stream, Trace
 
+TITLE = "# time [s], acceleration [g]"  # of a text
 MOST_SAMPLES = 10_000_000  # of a floor: 80 MB
 USUAL_PERIODS = 0.01, 20  # of buildings [s]
 LARGEST_TOTAL = 2  # of the shapes; that of the first mode alone is up to 1.6 at the top of a building
@@ -33,6 +37,19 @@ class FloorMotion:
     time_step: float  #: between two samples [s]
     error: float  #: bound of the error of linear interpolation between the samples, over g [1]
     remaining: float  #: bound of the acceleration after the last sample, over g [1]
+    ground_pga: float | None = None  #: peak acceleration of the ground, over g [1]
+    motion_of: ClassVar[str] = FLOOR
+
+    def to_text(self, path: str | os.PathLike[str]) -> None:
+        """Writes a text of two columns, times [s] and accelerations over g, as a record of a job (scene.units = "g").
+        Its comments state that it is the motion of a floor, and the PGA of the ground.
+
+        Raises OutputError if the file cannot be written, or another one exists."""
+        ground = [] if self.ground_pga is None else [f"# ground_pga = {self.ground_pga!r}"]
+        times = self.time_step * np.arange(self.acceleration.size)
+        rows = [f"{time!r} {value!r}" for time, value in zip(times.tolist(), self.acceleration.tolist())]
+        write_text(path, "\n".join([TITLE, f"# motion_of = {FLOOR}", *ground, *rows, ""]), "a motion of a floor",
+                   lambda beginning: beginning.startswith(TITLE.encode()))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -94,7 +111,9 @@ def floor_motion(record: ArrayLike | Motion | Trace | Stream, time_step: float |
         times = np.arange(while_shaking + free) / parts
         fine = np.interp(times, np.arange(ground.size), ground)
         floor = _response(fine, dataclasses.replace(modes, angle=modes.angle / parts))[0]
-    return FloorMotion(floor, step / parts, _error(modes, bounds, parts), _remaining(modes, end, free / parts))
+    is_on_a_floor = getattr(record, "motion_of", None) == FLOOR
+    return FloorMotion(floor, step / parts, _error(modes, bounds, parts), _remaining(modes, end, free / parts),
+                       record.ground_pga if is_on_a_floor else float(abs(ground).max()))
 
 
 def _modes(periods, damping, shape, step):

@@ -14,9 +14,11 @@ from scipy.sparse import coo_array
 from scipy.special import ndtr
 
 from overturn import lognormal_fit
+from overturn.arguments import expect_dataset
 from overturn.block_groups import blocks_at_one_site, counted
 from overturn.friction import codes_of, decided_points, expect_coefficient, slipping_points
 from overturn.joint_blocks import combined
+from overturn.motion_words import is_of_floor, measure_named, variable_of
 from overturn.output_file import new_file
 
 if TYPE_CHECKING:
@@ -39,7 +41,7 @@ class Fragility:
     point is one block under one motion at one scale. It exceeds if it overturns, or if peak is above
     `limit`. NaN: there is no such number, see `notes`."""
 
-    im: str  #: name of the intensity measure
+    im: str  #: name of the intensity measure; of a floor "pfa", "pfv", "floor_arias_intensity", ...
     units: str  #: of the intensity measure
     limit: float | None  #: of peak, the largest |theta| / alpha; None: overturning is counted
     edges: NDArray[np.float64]  #: of the bins, evenly spaced in the logarithm; one more than bins
@@ -117,7 +119,8 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
 
     im: intensity measure: "pga", "pgv", "arias_intensity", "significant_duration", or another variable of
         numbers over the dimension motion, which is taken to be proportional to the motion. The measures of
-        the records are scaled like the motions.
+        the records are scaled like the motions. Under motions of a floor, these are measures of the floor, and the
+        curve names them "pfa", "pfv", ...; "ground_pga" is the PGA of the ground that caused them.
     limit: in (0, 1], counts points whose field peak is above it; None counts those that overturn.
     friction: coefficient between block and ground, up to 2; points that need more, see the field friction, have no
         verdict.
@@ -137,7 +140,7 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
                          "an angle or a percentage.")
     if friction is not None:
         expect_coefficient(friction)
-    measure = measure_of(dataset, im)
+    measure, im = measure_of(dataset, im), name_of_measure(dataset, im)
     parts = [dataset] if together is None else blocks_at_one_site(dataset, together)
     cells = combined([cells_of(part, measure, limit, friction) for part in parts])
     edges = edges_of(cells, bins)
@@ -158,8 +161,7 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
 
 
 def expect_records(dataset):
-    if isinstance(dataset, (str, os.PathLike)):
-        raise ValueError(f"{os.fspath(dataset)!r} is a path. Give the data set that overturn.open() returns for it.")
+    expect_dataset(dataset)
     for name, of in (("region", "field"), ("scale", "scale of a record"), ("motion", "record")):
         if name not in dataset:
             raise ValueError(f"this result has no {of}: {name} is missing. A fragility curve needs the field region of a "
@@ -169,18 +171,28 @@ def expect_records(dataset):
 def measure_of(dataset, im):
     """Returns the intensity measure of every motion at every scale."""
     expect_records(dataset)
-    unscaled = _NAMES.get(im, im)
+    variable = variable_of(dataset.attrs, im)
+    unscaled = _NAMES.get(variable, variable)
     if not _is_measure(dataset, unscaled):
-        known = [name for name in POWERS if _NAMES.get(name, name) in dataset]
+        known = [name_of_measure(dataset, name) for name in POWERS if _NAMES.get(name, name) in dataset]
+        known += ["ground_pga"] * ("ground_pga" in dataset)
+        advice = (" The measure of the ground that caused the motions of the floor is a variable such as ground_pga: "
+                  "see docs/floors.md." * is_of_floor(dataset.attrs))
         raise ValueError(f"im = {im!r} is not an intensity measure of the motions. This result has {', '.join(known)}; "
-                         "another one must be a variable of numbers over the dimension motion.")
-    if im == "pga" and im in dataset:  # of the direction, if there are two horizontal components
-        return dataset[im]
+                         f"another one must be a variable of numbers over the dimension motion.{advice}")
+    if variable == "pga" and variable in dataset:  # of the direction, if there are two horizontal components
+        return dataset[variable]
     measure = dataset[unscaled]
     if "of the first horizontal component" in measure.attrs.get("comment", ""):
         raise ValueError(f"im = {im!r} is that of the first of two horizontal components, in whatever direction the "
                          "block is. Give im = \"pga\", which is that of every direction, or a variable of your own.")
-    return (measure * dataset["scale"] ** POWERS.get(im, 1)).assign_attrs(dataset[unscaled].attrs)
+    power = POWERS.get(variable, POWERS.get(name_of_measure(dataset, im), 1))
+    return (measure * dataset["scale"] ** power).assign_attrs(dataset[unscaled].attrs)
+
+
+def name_of_measure(dataset, im):
+    """Returns the name of an intensity measure in curves."""
+    return measure_named(dataset.attrs, variable_of(dataset.attrs, im))
 
 
 def _is_measure(dataset, name):
@@ -188,7 +200,8 @@ def _is_measure(dataset, name):
     dimension, only the known measures can be told from properties of the block."""
     if name not in dataset or name == "motion" or dataset[name].dtype.kind not in "fiu":
         return False
-    is_known = name in {*POWERS, *_NAMES.values()} and dataset[name].dims == dataset["motion"].dims
+    is_known = (not {name, name_of_measure(dataset, name)}.isdisjoint({*POWERS, *_NAMES.values()})
+                and dataset[name].dims == dataset["motion"].dims)
     return dataset[name].dims == ("motion",) or is_known
 
 
@@ -203,7 +216,7 @@ def _blocks(region):
 
 def units_of(measure, im):
     units = str(measure.attrs.get("units", "1"))
-    return "g" if im == "pga" and units == "1" else units
+    return "g" if im in ("pga", "pfa") and units == "1" else units
 
 
 def cells_of(dataset, measure, limit, friction):

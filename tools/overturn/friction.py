@@ -5,6 +5,8 @@ from __future__ import annotations
 import numbers
 from typing import TYPE_CHECKING
 
+from overturn.arguments import expect_dataset
+
 if TYPE_CHECKING:
     from collections.abc import Hashable, Iterable
 
@@ -32,6 +34,7 @@ def supported_share(dataset: xarray.Dataset, friction: float,
     Raises ValueError if the dataset lacks the field friction.
     """
     expect_coefficient(friction)
+    expect_dataset(dataset)
     decided = decided_points(dataset["region"])
     return (decided & ~slipping_points(dataset, decided, friction)).sum(dim) / decided.sum(dim)
 

@@ -16,7 +16,7 @@ class Values(BackendArray):
 
 def variable(file, name):
     each = file[name]
-    is_field = bool(file.tile) and name not in file.coordinates
+    is_field = file.has_tiles and name not in file.coordinates
     values = Values(each.shape, each.dtype, lambda index: read_field(file, name, index) if is_field else each[index])
     lazy = indexing.MemoryCachedArray(indexing.CopyOnWriteArray(indexing.LazilyIndexedArray(values)))
     return xarray.Variable(each.dimensions, lazy, each.attrs)

@@ -20,6 +20,8 @@ def expect_same_motion(file, spectrum):
     if is_recorded(file) != is_recorded(spectrum):
         raise ToolError(f"\"{file.filename}\" is a boundary under a {ground_word(file)}, but the "
                         f"spectrum is one under a {ground_word(spectrum)}. Omit --boundary.")
+    if is_recorded(spectrum) and not spectrum.run:
+        raise ToolError("the data set does not tell which records it is of. Draw the boundary on the spectrum of the file.")
     if is_recorded(file) and checksums_of_records(file) != checksums_of_records(spectrum):
         raise ToolError(f"\"{file.filename}\" was computed under different records from the spectrum.")
 
@@ -31,7 +33,7 @@ def expect_equal(file, spectrum, name, here, there):
 
 def expect_overlap(boundary, plane, across):
     values = boundary.values(across, boundary.across)
-    first, last = axis_of(plane, across, plane.across).limits()
+    first, last = axis_of(plane, across, plane.across, is_to_scale=True).limits()
     if not ((values >= first) & (values <= last)).any():
         raise ToolError(f"\"{boundary.file.filename}\" covers {across} from {values.min():g} to "
                         f"{values.max():g}, the spectrum only from {first:g} to {last:g}.")
@@ -41,11 +43,13 @@ def open_boundary(path, plane, units):
     """Opens the boundary file if it has the same ground motion as the spectrum. Its axes may differ: its flips are
     converted to the quantities on the axes of the spectrum."""
     spectrum = plane.file
+    if plane.across is None:
+        raise ToolError(f"\"{spectrum.filename}\" has one axis, but a boundary is drawn over two. Omit --boundary.")
     file = open_result(path, "overturning boundary", "a boundary written by overturn boundary")
     expect_same_motion(file, spectrum)
     if NEEDING_A_SIZE.intersection(plane.quantities(units)):
         expect_size(file, PHYSICAL)
-    for name in ("pulse", "theory", *PULSE_NUMBERS):
+    for name in ("pulse", "theory", "motion_of", *PULSE_NUMBERS):
         expect_equal(file, spectrum, name, file.text(name), spectrum.text(name))
     if is_recorded(file) or plane.quantities(units)[0] in RECIPROCALS:
         expect_equal(file, spectrum, "gravity", file.text("gravity"), spectrum.text("gravity"))

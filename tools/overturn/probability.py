@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import ndtr
 
-from overturn.fragility_curve import Fragility, cells_of, edges_of, is_measurable, measure_of, units_of
+from overturn.fragility_curve import Fragility, cells_of, edges_of, is_measurable, measure_of, name_of_measure, units_of
 from overturn.lognormal_fit import LEAST_MOTIONS
 
 if TYPE_CHECKING:
@@ -197,7 +197,8 @@ def binned_marginal(dataset: xarray.Dataset, x: str, y: str, density: Callable, 
     def mass(x):
         each, elsewhere = _mass(density, nodes, weights, x)
         return each.reshape(len(x), len(edges[1]) - 1, -1).sum(axis=2), elsewhere
-    return _in_bins(edges[0], shares, x, units_of(of_x, x), mass)
+    im = "/".join(name_of_measure(dataset, each) for each in x.split("/"))
+    return _in_bins(edges[0], shares, im, units_of(of_x, im), mass)
 
 
 def _measure(dataset, name):

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 _WARNING = "overturn: warning: "  # begins a line of the program
 
 # Keys that name files: what to give, and which function takes arrays.
-FILES = {"scene.record": "a path or a list of paths. overturn.evaluate(record=..., time_step=...) takes accelerations",
+FILES = {"scene.record": "a path or a list of paths. overturn.evaluate(record=..., time_step=...) takes accelerations, "
+                         "and FloorMotion.to_text() writes those of a floor",
          "scene.vertical": "a component of the record, a path, or a list of them. overturn.evaluate(vertical=...) "
                            "takes accelerations",
          "scene.second_component": "a component of the record, a path, or a list of them. "
@@ -79,7 +80,43 @@ def run(job: Job, ranks: int = 1, *, output: str | os.PathLike[str] | None = Non
             return dataset.load()
 
 
-def _output_of(command, path, job):
+def topple(*, direction: float | None = None, pulse: str | None = None, period: float | None = None,
+           record: str | os.PathLike[str] | None = None, component: str | int | None = None, pga: float | None = None,
+           scale: float | None = None, restitution: float | None = None, restitution_of_maximum: float | None = None,
+           pga_max: float | None = None, history: str | os.PathLike[str] | None = None,
+           overrides: Mapping[str, Any] | None = None, **block: float) -> dict[str, Any]:
+    """Returns the answer of `overturn topple`: whether one block topples, and at which peak accelerations.
+
+    block: width and height [m], incline [rad] and so on; with all other arguments, the options of the command.
+    record: the path of a recorded motion. evaluate() takes accelerations.
+    history: path of a file, to which the motion at `pga` or `scale` is written.
+    overrides: keys of [scene] and their new values, such as {"scene.gravity": 1.62}.
+
+    The members of the answer are those of `overturn topple --json`. Of a block with two different sides, both
+    directions are computed unless one is given: `by_direction` has the answers for both, and the other members are
+    those of the worse one.
+
+    Warns of values that are probably in another unit. Raises ProgramError if the program fails.
+    """
+    given = {**block, "direction": direction, "pulse": pulse, "period": period, "record": record,
+             "component": component, "pga": pga, "scale": scale, "restitution": restitution,
+             "restitution_of_maximum": restitution_of_maximum, "pga_max": pga_max, "history": history}
+    _expect_file_names("" if record is None else record, "scene.record")
+    options = [f"--{name.replace('_', '-')}={_option_text(value)}" for name, value in given.items()
+               if value is not None]
+    answer = json.loads(_output_of([overturn_path(), "topple", "--json", *options, *_set_arguments(overrides)]))
+    for text in answer["warnings"]:
+        warnings.warn(f"{text}.", stacklevel=2)
+    return answer
+
+
+def _option_text(value):
+    if hasattr(value, "tolist"):  # of NumPy
+        value = value.tolist()
+    return os.fspath(value) if isinstance(value, (str, os.PathLike)) else repr(value)
+
+
+def _output_of(command, path="", job=""):
     program = overturn_path()
     if not is_program(program):
         is_named = IS_CHECKOUT or os.environ.get("OVERTURN")

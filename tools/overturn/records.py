@@ -27,6 +27,8 @@ class Record:
     format: str  #: "AT2", "V2A", "SMC", "K-NET", "KiK-net", "COSMOS", "CSMIP", "ESM" or "text"
     is_uncorrected: bool  #: whether the file states that it was not corrected
     header: list[str]  #: lines of the file before the samples
+    motion_of: str = "ground"  #: or "floor", as a text may state (docs/floors.md)
+    ground_pga: float | None = None  #: over g, of the ground that caused the motion of a floor, if it is stated [1]
 
 
 def read_record(path: str | os.PathLike, component: int | str = 1, *, time_step: float | None = None,

@@ -9,7 +9,10 @@ from matplotlib.patches import Patch
 # readers. The minus of a pair is the darker one. Of F, the main structure under records, the minus is the paper's grey,
 # and the plus differs in hue, too. U2, of blocks with two different sides, differs by its hue.
 UNDECIDED, NOT_COMPUTED = 254, 255
-BETWEEN = 253  # in pictures alone: between computed values that are far from each other
+# In pictures alone: between computed values that are far from each other, and between bands.
+BETWEEN, APART = 253, 252
+LEFT_OUT = 251  # of a data set, by its user
+NOTHING = {NOT_COMPUTED: "not computed yet", LEFT_OUT: "left out", BETWEEN: "between computed values"}  # hatched
 REGIONS = {
     0: ("S", "safe, no more impacts needed", "#8bc77f"),
     1: ("S+", "safe after one more impact", "#0b5530"),
@@ -31,7 +34,7 @@ UNSAFE = [code for code in CODES.values() if code not in SAFE]
 LEFT_STANDING = [code for code in CODES.values() if code not in FALLEN]
 # What a pixel must not hide: the kinds of codes, the last one first.
 _KINDS = np.full(256, 2)
-_KINDS[SAFE], _KINDS[UNSAFE], _KINDS[NOT_COMPUTED] = 0, 1, 3
+_KINDS[SAFE], _KINDS[UNSAFE], _KINDS[[NOT_COMPUTED, LEFT_OUT]] = 0, 1, 3
 
 
 def ranks(codes):
@@ -49,6 +52,7 @@ def coloured(codes):
     table = np.zeros((256, 4), np.uint8)
     for code, (_, _, colour) in REGIONS.items():
         table[code] = [round(255 * part) for part in matplotlib.colors.to_rgba(colour)]
+    table[APART] = 255
     return table[codes]
 
 
@@ -69,7 +73,7 @@ def legend_entries(codes, ground="pulse"):
             meaning = meaning_of(code, ground)
             label = f"{name}  {meaning}" if name else meaning
             entries.append(Patch(facecolor=colour, edgecolor="black", linewidth=0.5, label=label))
-    words = ["not computed yet"] * (NOT_COMPUTED in codes) + ["between computed values"] * (BETWEEN in codes)
+    words = [word for code, word in NOTHING.items() if code in codes]
     if words:
-        entries.append(Patch(facecolor="white", edgecolor="0.6", hatch="////", linewidth=0.5, label=", or ".join(words)))
+        entries.append(Patch(facecolor="white", edgecolor="0.6", hatch="////", linewidth=0.5, label=",\nor ".join(words)))
     return entries

@@ -9,6 +9,7 @@ from overturn.tool import ToolError
 
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 FORMATS = (3, 4)
+SPECTRUM = "overturning spectrum"  # a kind of file
 MOST_LETTERS = 240  # of a title: two to four lines of a picture
 
 
@@ -21,6 +22,14 @@ def shortened(text, width):
     """Returns the text in one line of at most `width` characters; may cut within a word."""
     line = " ".join(text.split())
     return line if len(line) <= width else line[:width - 1].rstrip() + "…"
+
+
+def told_apart(texts, width):
+    """Returns texts shortened at their ends, or at their beginnings if they differ in the ends only; in full if neither
+    tells them apart."""
+    beginnings = [shortened(text, width) for text in texts]
+    ends = [text if len(text) <= width else "…" + text[1 - width:] for text in texts]
+    return next((short for short in (beginnings, ends) if len({*short}) == len({*texts})), texts)
 
 
 def title_of(file, shown=()):
@@ -46,8 +55,16 @@ def plain(title, width=MOST_LETTERS):
     return escaped(shortened(title, width))
 
 
-def open_result(path, kind, wanted):
-    """Opens a result file of the given kind; `wanted` describes the kind in error messages."""
+def open_result(path, kinds, wanted):
+    """Opens a result file of one of the given kinds; `wanted` describes them in error messages. In place of the path of
+    a spectrum, a data set may be given, see overturn.open()."""
+    if hasattr(path, "data_vars") and "kind" not in path.attrs:
+        raise ValueError("the data set has no attribute kind. Give one of overturn.open(), or keep the attributes of it: "
+                         "xarray.set_options(keep_attrs=True).")
+    if hasattr(path, "data_vars") and path.attrs["kind"] == SPECTRUM == kinds:
+        from overturn.dataset_result import DatasetResult
+        return DatasetResult(path)
+    path = path_of(path)
     try:
         with open(path, "rb") as file:
             signature = file.read(len(HDF5_SIGNATURE))
@@ -56,7 +73,7 @@ def open_result(path, kind, wanted):
         file = h5py.File(path, "r")
     except OSError as error:
         raise ToolError(f"cannot read \"{path}\": {error.strerror or error}.") from error
-    if text_of(file, "kind") != kind:
+    if text_of(file, "kind") not in ((kinds,) if isinstance(kinds, str) else kinds):
         raise ToolError(f"\"{path}\" is not {wanted}.")
     version = file.attrs.get("format_version", 1)
     if version not in FORMATS:
@@ -68,15 +85,17 @@ def open_result(path, kind, wanted):
 
 def path_of(result):
     """Returns the path of a result file, given by its path or by the data set that overturn.open() returned for
-    it. Raises ValueError for a part of a data set: its picture would be that of the whole file."""
+    it. Raises ValueError for a part of a data set, or a changed one: its picture would be that of the file."""
     if not hasattr(result, "encoding"):
         return os.fspath(result)
     path = result.encoding.get("source")
-    if path is None:
-        raise ValueError("the data set was not made by overturn.open(). Pass the path of the file.")
-    with Result(h5py.File(path)) as file:
-        if file.sizes != dict(result.sizes):
-            raise ValueError(f"the data set is not all of \"{path}\". Pass the path of the file, and select by index.")
+    if path is None or not hasattr(result, "data_vars"):
+        raise ValueError("this is no data set of overturn.open(). Pass one, or the path of the file.")
+    from overturn.datasets import open as open_dataset
+    with open_dataset(path) as whole:
+        if not whole.identical(result):
+            raise ValueError(f"the data set differs from \"{path}\", and only whole boundaries and histories are drawn. "
+                             "Pass the path, and choose a part by the arguments of the function.")
     return path
 
 

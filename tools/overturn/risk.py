@@ -16,6 +16,7 @@ from scipy.optimize import brentq
 from overturn.fragility_curve import Fragility
 from overturn.hazard import Hazard, read_hazard
 from overturn.lognormal_fit import LEVEL
+from overturn.motion_words import FLOOR_MEASURES
 from overturn.probability import (NODES, WEIGHTS, Probability, binned, binned_marginal, lognormal, marginal,
                                   probability_of, shares_of)
 
@@ -120,6 +121,11 @@ def annual_rate(hazard: Hazard, fragility: Fragility | Probability, *, edges: Ar
 def _in_the_measure_of(hazard, fragility):
     p = probability_of(fragility)
     if (hazard.im, hazard.units) != (p.im, p.units):
+        if p.im in FLOOR_MEASURES:
+            raise ValueError(f"the hazard is of {hazard.im} [{hazard.units}], the fragility of {p.im} [{p.units}], a "
+                             "measure of a floor. A hazard curve is usually one of the ground: compute the fragility "
+                             f"against ground_{hazard.im}, the measure of the ground that caused each motion of the "
+                             "floor (docs/floors.md), or give a hazard curve of the floor.")
         raise ValueError(f"the hazard is of {hazard.im} [{hazard.units}], the fragility of {p.im} [{p.units}]. Compute "
                          "the fragility against the measure of the hazard, or convert the levels of the hazard.")
     return p

@@ -3,8 +3,9 @@
 import numpy as np
 
 from overturn.fields import read_field
-from overturn.regions import BETWEEN, ranks, worst
-from overturn.result_file import open_result
+from overturn.block_groups import texts_of
+from overturn.regions import APART, BETWEEN, ranks, worst
+from overturn.result_file import SPECTRUM, open_result
 from overturn.tool import USAGE, ToolError
 
 STRENGTHS = ("amplitude", "scale", "pga")
@@ -12,21 +13,27 @@ RATES = ("frequency", "pulse_period", "pulse_frequency")
 JOB, PHYSICAL = "job", "physical"  # units: those of the job, or seconds, g and degrees
 EQUIVALENTS = {"frequency": "pulse_period", "amplitude": "pga", "scale": "pga"}  # in physical units
 MOST_REACH = 1 / 16  # of a cell from its value, over the range of the axis: nine even values leave no gaps
+FEW = 8  # values that would leave gaps on an axis to scale, however they are spaced
+MOST_BANDS = 24  # that have a tick each
+LINEAR, LOG, BANDS = "linear", "log", "bands"  # scales of an axis
+REACH_OF_BANDS = 0.45  # of a band from its middle, over the distance of two
+COUNTED = ("motion", "block")  # dimensions whose values are numbers
 RECIPROCALS = {"pulse_period": "pulse_frequency", "pulse_frequency": "pulse_period"}
 
 
 def open_spectrum(path, fields=("region",)):
     """Opens a spectrum that has the given fields."""
-    file = open_result(path, "overturning spectrum", "a spectrum written by overturn run")
+    file = open_result(path, SPECTRUM, "a spectrum written by overturn run")
     for field in fields:
         if field not in file:
-            raise ToolError(f"\"{path}\": this file has no field {field}; add it to output.fields.")
+            raise ToolError(f"\"{file.filename}\": this file has no field {field}; add it to output.fields.")
     return file
 
 
 class Plane:
     """What a picture shows of a spectrum or a boundary: the dimensions along the horizontal and the vertical axis, and
-    an index of each of the others. A boundary of one frequency or size has no horizontal dimension."""
+    an index of each of the others. A spectrum of one dimension has no horizontal one, nor has a boundary of one frequency or
+    size."""
 
     def __init__(self, file, index, across, up):
         self.file, self.index, self.across, self.up = file, index, across, up
@@ -128,47 +135,77 @@ def are_geometric(values):
 
 
 def without_gaps(codes, up, across):
-    """Returns a picture without colours between values that are far from each other."""
-    codes[up.is_between(codes.shape[0])] = BETWEEN
-    codes[:, across.is_between(codes.shape[1])] = BETWEEN
+    """Returns a picture without colours where nothing was computed: between values that are far from each other, and
+    between bands."""
+    codes[up.is_between(codes.shape[0])] = APART if up.scale == BANDS else BETWEEN
+    codes[:, across.is_between(codes.shape[1])] = APART if across.scale == BANDS else BETWEEN
     return codes
 
 
 class Axis:
-    """The cells of one axis, in ascending order of the values, which may descend in the file; each
-    extends to the midpoints between its value and its neighbours, but not beyond a small part of the axis: what is
-    between values far from each other was not computed, unless the values are counted.
+    """The cells of one axis, in ascending order of the values, which may descend in the file.
 
-    Midpoints are computed on the scale of the axis, which is logarithmic for geometric values unless
-    `scale` is given.
+    To scale, each extends to the midpoints between its value and its neighbours, but not beyond a small part of the
+    axis: what is between values far from each other was not computed. Midpoints are computed on the scale of the
+    axis, which is logarithmic for geometric values unless `scale` is given.
+
+    Few values have bands of equal width with a tick each, whatever is between them, unless `is_to_scale`: to scale, most
+    of the axis would be empty. So have values that are counted, such as blocks, if they are not too many; their names
+    may be given.
     """
 
-    def __init__(self, values, scale=None, *, are_counted=False):
+    def __init__(self, values, scale=None, *, are_counted=False, names=None, is_to_scale=False):
         self.descends = values[-1] < values[0]
         if self.descends:
             values = values[::-1]
-        self.only_value = values[0] if len(values) == 1 else None
-        self.scale = scale or ("log" if are_geometric(values) else "linear")
-        shown = self.shown(values)
+        self.values, self.size = values, len(values)
+        self.scale = scale or (LOG if are_geometric(values) else LINEAR)
+        self._set_cells(self.size == 1 or are_counted)
+        has_bands = self.size <= (MOST_BANDS if are_counted else FEW) or (
+            self.size <= MOST_BANDS and self._share_of_cells() < 0.5)
+        if has_bands and (self.size == 1 or not is_to_scale):
+            self.scale = BANDS
+            self._set_cells(self.size == 1)
+        self.names = names if names is None or not self.descends else names[::-1]
+
+    def _set_cells(self, are_adjacent):
+        shown = self.shown(self.values)
         inner = (shown[1:] + shown[:-1]) / 2
-        if len(values) == 1:
+        if self.size == 1:
             first, last = shown[0] - 0.5, shown[0] + 0.5
         else:
             first, last = 2 * shown[0] - inner[0], 2 * shown[-1] - inner[-1]
-            if self.scale == "linear" and values[0] >= 0:
+            if self.scale == LINEAR and self.values[0] >= 0:
                 first = max(first, 0)  # no block or motion has a negative value
-        reach = np.inf if are_counted or len(values) == 1 else MOST_REACH * (shown[-1] - shown[0])
+        reach = (np.inf if are_adjacent else REACH_OF_BANDS if self.scale == BANDS
+                 else MOST_REACH * (shown[-1] - shown[0]))
         self.starts = np.maximum(np.insert(inner, 0, first), shown - reach)
         self.ends = np.minimum(np.append(inner, last), shown + reach)
         self.edges = np.concatenate([self.starts[:1], inner, self.ends[-1:]])
-        self.size = len(values)
+
+    def _share_of_cells(self):
+        return (self.ends - self.starts).sum() / (self.edges[-1] - self.edges[0])
 
     def shown(self, values):
-        return np.log(values) if self.scale == "log" else values
+        """Returns the places of values on the scale of the axis; of bands, 0, 1, ... are their middles."""
+        if self.scale == BANDS:
+            return _along(self.values, np.arange(self.size), values)
+        return np.log(values) if self.scale == LOG else values
+
+    def value_at(self, shown):
+        """Returns the values at places on the scale of the axis."""
+        if self.scale == BANDS:
+            return _along(np.arange(self.size), self.values, shown)
+        return np.exp(shown) if self.scale == LOG else shown
 
     def limits(self):
-        ends = self.edges[[0, -1]]
-        return np.exp(ends) if self.scale == "log" else ends
+        return self.value_at(self.edges[[0, -1]])
+
+    def ticks(self):
+        """Returns the values and the texts of the ticks of bands, or None."""
+        if self.scale != BANDS:
+            return None
+        return self.values, texts_of(self.values, 4) if self.names is None else self.names
 
     def share(self, values):
         """Returns the positions of values along the axis, from 0 to 1."""
@@ -196,3 +233,13 @@ class Axis:
         shares = (middles - self.edges[0]) / (self.edges[-1] - self.edges[0])
         of_cell = np.minimum((shares * pixels).astype(int), pixels - 1)
         return of_cell[::-1] if self.descends else of_cell
+
+
+def _along(given, wanted, values):
+    """Interpolates between corresponding numbers, and beyond both ends with the slope there."""
+    values = np.asarray(values, float)
+    if len(given) == 1:
+        return wanted[0] + values - given[0]
+    slopes = (wanted[[1, -1]] - wanted[[0, -2]]) / (given[[1, -1]] - given[[0, -2]])
+    return (np.interp(values, given, wanted) + slopes[0] * np.minimum(values - given[0], 0)
+            + slopes[1] * np.maximum(values - given[-1], 0))

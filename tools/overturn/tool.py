@@ -2,10 +2,13 @@
 imported here, because synthetic_record needs nothing else but NumPy."""
 
 import argparse
+import contextlib
 import os
 import pathlib
+import re
 import signal
 import sys
+import warnings
 
 from overturn.output_file import FILE, PICTURES, OutputError
 
@@ -47,11 +50,32 @@ def parse_with_picture(parser, argv, default="FILE.png"):
     return arguments
 
 
+@contextlib.contextmanager
+def missing_glyphs_reported(name):
+    """Says once which characters the font of Matplotlib lacks, in place of its warning for each."""
+    missing = {}
+    with warnings.catch_warnings():
+        warnings.filterwarnings("always", r"Glyph \d+ .*missing")
+        show = warnings.showwarning
+
+        def note(message, *how, **more):
+            if found := re.match(r"Glyph (\d+)", str(message)):
+                missing[chr(int(found[1]))] = None
+            else:
+                show(message, *how, **more)
+        warnings.showwarning = note
+        yield
+    if missing:
+        print(f"{name}: the font of Matplotlib lacks {' '.join(missing)}: PNG and PDF pictures have boxes in their place, "
+              "SVG pictures have the text.", file=sys.stderr)
+
+
 def run_tool(name, main):
     """Runs the function of a tool; an error ends the process with a message and an exit code. If the reader of the
     output stops early, like head, the tool ends as other programs do, without a message."""
     try:
-        main()
+        with missing_glyphs_reported(name):
+            main()
         sys.stdout.flush()
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush at the end of Python

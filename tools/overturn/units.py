@@ -1,9 +1,10 @@
 """The quantities on the axes of a plane: their values and labels, in the units of the job or in seconds and g."""
 
 import numpy as np
-from overturn.captions import is_linear, is_recorded
+from overturn.captions import is_linear, is_recorded, names_of
+from overturn.motion_words import worded
 from overturn.result_file import escaped
-from overturn.spectrum_file import JOB, PHYSICAL, Axis, scanned_quantity
+from overturn.spectrum_file import COUNTED, JOB, LOG, PHYSICAL, Axis, scanned_quantity
 from overturn.tool import USAGE, ToolError
 
 LABELS = {"frequency": r"pulse frequency  $\omega_p\,/\,p$",
@@ -47,25 +48,33 @@ def label_of(file, quantity):
         attributes = file[quantity].attrs
         units = attributes.get("units", "1")
         return escaped(attributes.get("long_name", quantity)) + f" [{units}]" * (units != "1")
-    return LABELS[quantity].replace("{threshold}", r"\alpha" if is_linear(file) else r"\tan\,\alpha")
+    label = LABELS[quantity].replace("{threshold}", r"\alpha" if is_linear(file) else r"\tan\,\alpha")
+    return worded(file.attrs, label)
 
 
 def name_axes(plane, units=JOB):
-    """Returns the labels of the horizontal and the vertical axis."""
-    return tuple(label_of(plane.file, name) if name else "" for name in plane.quantities(units))
+    """Returns the labels of the horizontal and the vertical axis. Names of blocks or records need no further words."""
+    named = {"block": "block", "motion": "record"}
+    return tuple("" if name is None else named[name] if name in named and axis_of(plane, name, name).names
+                 else label_of(plane.file, name) for name in plane.quantities(units))
 
 
-def axis_of(plane, quantity, dimension):
+def axis_of(plane, quantity, dimension, is_to_scale=False):
     """Returns the cells of an axis. Periods of evenly spaced frequencies are neither evenly spaced nor
-    geometric; a logarithmic axis leaves room for the short and the long ones."""
+    geometric; a logarithmic axis leaves room for the short and the long ones. A plane of one dimension has nothing
+    along its horizontal axis."""
+    if quantity is None:
+        return Axis(np.zeros(1), names=[""])
     is_converted = quantity == "pulse_period" and quantity != dimension
-    return Axis(plane.values(quantity, dimension), "log" if is_converted else None,
-                are_counted=quantity in ("motion", "block"))
+    names = names_of(plane.file, quantity)
+    values = plane.values(quantity, dimension)
+    return Axis(values, LOG if is_converted else None, are_counted=quantity in COUNTED, is_to_scale=is_to_scale,
+                names=names and [names[number] for number in values])
 
 
-def axes_of_plane(plane, units=JOB):
+def axes_of_plane(plane, units=JOB, is_to_scale=False):
     """Returns the horizontal and the vertical axis."""
-    return tuple(axis_of(plane, quantity, dimension)
+    return tuple(axis_of(plane, quantity, dimension, is_to_scale)
                  for quantity, dimension in zip(plane.quantities(units), (plane.across, plane.up)))
 
 

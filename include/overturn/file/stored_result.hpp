@@ -35,6 +35,7 @@ struct FileOrigin {
     FileKind kind = FileKind::spectrum;
     std::int64_t format = 0; ///< version of the layout
     std::string title;
+    MotionOf motion_of = MotionOf::ground;
     std::string program_version;
     std::string program_commit;
     std::string resolved_job;

@@ -224,10 +224,12 @@ private:
         return ends;
     }
 
-    /// The block rests between two phases. The friction that a record asks for is monotone between
-    /// two samples.
-    [[gnu::noinline, gnu::cold]] void see_rest(const Mask& lanes, const T& first, const T& last)
+    /// The block rests between two phases; not at all if they are equal, as at the onset of a
+    /// motion that lifts it at once. The friction that a record asks for is monotone between two
+    /// samples.
+    [[gnu::noinline, gnu::cold]] void see_rest(const Mask& at_rest, const T& first, const T& last)
     {
+        const Mask lanes = at_rest && first < last;
         const ContactSide<E>& side = watch_->sides().plus;
         if constexpr (is_recorded) {
             const auto see = [&](const T& phase, const Mask& at) {

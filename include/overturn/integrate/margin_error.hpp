@@ -25,7 +25,7 @@ public:
     void pass_step(const Block<T>& block, const auto& excitation, const Rocking<T>& now,
                    const auto& step, const Mask& lanes)
     {
-        const E rounding(scalar_t<E>(std::numeric_limits<S>::epsilon()));
+        const E rounding = E(scalar_t<E>(std::numeric_limits<S>::epsilon()));
         const E end_rate = estimate_of(step.rate);
         const E rate = abs(estimate_of(now.rate)) + abs(end_rate);
         const E acceleration = estimate_of(excitation.largest_acceleration() + block.slenderness);

@@ -23,7 +23,9 @@ struct Motion {
     std::vector<std::string> remarks; ///< numbers of headers that differ from the samples by little
     std::vector<std::string> header;  ///< lines of the file in UTF-8
     IntensityMeasures measures;       ///< not scaled
-    std::string checksum;             ///< XXH64 of the accelerations over g, in hexadecimal digits
+    std::optional<MotionOf> stated_motion_of; ///< if one of the files states it
+    std::optional<double> ground_pga;         ///< see RecordComponent; not scaled
+    std::string checksum; ///< XXH64 of the accelerations over g, in hexadecimal digits
     std::shared_ptr<const Accelerogram> record;
 };
 

@@ -67,29 +67,8 @@ FootOfCentre<T> foot_of_centre(const ContactSide<T>& side, const T& slenderness)
     return {s * side.cosine + c * side.sine, c * side.cosine - s * side.sine};
 }
 
-/// The friction coefficient that a block needs to lift on its side: b / h.
-template <Number T>
-T friction_to_lift(const ContactSide<T>& side, const T& slenderness)
-{
-    const FootOfCentre<T> foot = foot_of_centre(side, slenderness);
-    return foot.distance / foot.height;
-}
-
-/// The friction coefficient that an impact needs, from this side i to the other side j, if the base
-/// acts at the corner j alone: the ratio of its impulses along the base and normal to it,
-///
-///     h (omega_i - omega_j) / (b_i omega_i + b_j omega_j)
-template <Number T>
-T friction_of_impact(const Block<T>& block, const ContactSide<T>& side, const ContactSide<T>& other)
-{
-    const FootOfCentre<T> here = foot_of_centre(side, block.slenderness);
-    const FootOfCentre<T> there = foot_of_centre(other, block.other.slenderness);
-    const T kept = block.rate_ratio() * (block.other.pace / block.pace); // omega_j / omega_i
-    return block.size * here.height * (1 - kept) /
-           (block.size * here.distance + block.other.size * there.distance * kept);
-}
-
-/// A force of the base on the block, with its derivatives with respect to some variable.
+/// A force of the base on the block, or an impulse, with its derivatives with respect to some
+/// variable.
 template <Number T>
 struct ContactForce {
     T along;  ///< along the base, positive outward
@@ -112,6 +91,33 @@ struct ContactForce {
         return select<T>(along < 0, -slope, slope);
     }
 };
+
+/// The friction coefficient that a block needs to lift on its side: |b / h|. b is negative if the
+/// foot is outside the base, beyond the corner.
+template <Number T>
+T friction_to_lift(const ContactSide<T>& side, const T& slenderness)
+{
+    const FootOfCentre<T> foot = foot_of_centre(side, slenderness);
+    return abs(foot.distance) / foot.height;
+}
+
+/// The friction coefficient that an impact needs, from this side i to the other side j, if the base
+/// acts at the corner j alone: the ratio of its impulses along the base and normal to it,
+///
+///     h |omega_i - omega_j| / (b_i omega_i + b_j omega_j)
+///
+/// Infinite if the normal impulse is not positive: the base would have to pull.
+template <Number T>
+T friction_of_impact(const Block<T>& block, const ContactSide<T>& side, const ContactSide<T>& other)
+{
+    const FootOfCentre<T> here = foot_of_centre(side, block.slenderness);
+    const FootOfCentre<T> there = foot_of_centre(other, block.other.slenderness);
+    const T kept = block.rate_ratio() * (block.other.pace / block.pace); // omega_j / omega_i
+    const ContactForce<T> impulse{block.size * here.height * (1 - kept),
+                                  block.size * here.distance +
+                                      block.other.size * there.distance * kept};
+    return impulse.friction();
+}
 
 /// The force whose horizontal part, positive outward, and vertical part are `level`, on the base.
 template <Number T>

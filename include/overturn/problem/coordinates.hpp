@@ -82,7 +82,10 @@ public:
     ///   samples_per_unit  samples of the record per time unit 1/p [1]
     ///   angular_frequency, samples_per_second  of the motion of a block with two different sides
     ///                     [1/s]
-    ///   moment_kept, gyration_over_size  J / m [m2] and k / R+ of a block with two different sides
+    ///   moment_kept, gyration_over_size, center_over_half_height  J / m [m2], k / R+ and the
+    ///   height
+    ///                     of the centre of mass over half the height [1] of a block with two
+    ///                     different sides, if it has them
     const CoordinateValues& of(std::string_view name) const;
 
     /// All points of the box, row by row.

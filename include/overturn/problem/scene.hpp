@@ -4,6 +4,7 @@
 #include "overturn/mechanics/accelerogram.hpp"
 #include "overturn/mechanics/pulse_kind.hpp"
 #include "overturn/mechanics/theory.hpp"
+#include "overturn/text/motion_words.hpp"
 #include "overturn/text/names.hpp"
 
 #include <algorithm>
@@ -44,6 +45,7 @@ struct Scene {
     /// and a second horizontal component.
     std::vector<std::shared_ptr<const Accelerogram>> records{};
     double gravity = 9.81; ///< g [m/s2]
+    MotionOf motion_of = MotionOf::ground;
 
     bool is_recorded() const { return !records.empty(); }
     bool has_two_components() const { return is_recorded() && !records[0]->second().empty(); }
@@ -53,6 +55,12 @@ struct Scene {
         return motion == Under::any_motion || (motion == Under::pulse && !is_recorded()) ||
                (motion == Under::record && is_recorded()) ||
                (motion == Under::two_components && has_two_components());
+    }
+
+    /// A text about the motion of the ground in the words for this motion, see motion_words.hpp.
+    std::string worded(std::string_view about_the_ground) const
+    {
+        return overturn::worded(motion_of, about_the_ground);
     }
 
     /// The index into `records` of a value of the coordinate "motion", which counts from 1.

@@ -3,6 +3,7 @@
 // or corrected. Only counts of a digitiser are converted, and lose their mean.
 #pragma once
 
+#include "overturn/text/motion_words.hpp"
 #include "overturn/text/names.hpp"
 
 #include <cstddef>
@@ -37,6 +38,9 @@ struct RecordComponent {
     double start = 0; ///< time of the first sample, if the file states times [s]
     /// Numbers of the header that differ from the samples by little, with their line.
     std::vector<std::string> remarks = {};
+    std::optional<MotionOf> motion_of = {}; ///< if the file states it
+    /// Peak acceleration over g of the ground that caused the motion of a floor, if it is stated.
+    std::optional<double> ground_pga = {};
     /// Header lines as in the file, without line ends, in any encoding; for text, the comments.
     std::vector<std::string> header;
 };

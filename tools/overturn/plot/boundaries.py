@@ -15,13 +15,14 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from overturn import regions
 from overturn.captions import ground_word, heading, is_recorded, panel_titles, subtitle
-from overturn.choice import add_choice_arguments, planes_of
+from overturn.choice import add_choice_arguments, sheet_of
+from overturn.motion_words import worded
 from overturn.output_file import save
+from overturn.plot.bands import set_axes
 from overturn.plot.headings import Heading
 from overturn.plot.sheet import MOST_PANELS, Sheet
-from overturn.result_file import damage_reported, open_result, path_of, plain
-from overturn.spectrum_file import Axis
-from overturn.ticks import set_axes
+from overturn.result_file import damage_reported, open_result, plain
+from overturn.spectrum_file import BANDS, Axis
 from overturn.tool import parse_with_picture, parser_of
 from overturn.units import add_units_argument, axis_of, expect_size, name_axes, name_of_flips, scan_of
 
@@ -34,7 +35,7 @@ Each flip of the verdict is a point; consecutive ones along the frequency look l
 lowest flip of each frequency, the minimum overturning amplitude, is bold; a frequency at which the
 first amplitude of the scan overturns the block has a triangle instead. Overturning amplitudes are
 shaded. Boundaries of several slendernesses, restitutions or records are plotted as a grid of up to
-12 planes. Under a record, there are always strips that are narrower than the steps of the scan: what
+100 planes. Under a record, there are always strips that are narrower than the steps of the scan: what
 is shaded as safe may contain them."""
 
 SAFE, UNSAFE, UNDECIDED, NOT_COMPUTED, NOT_SCANNED = range(5)
@@ -58,11 +59,11 @@ class Lines:
     def __init__(self, plane, units):
         across, up = plane.quantities(units)
         self.frequency = np.zeros(1) if across is None else plane.values(across, plane.across)
-        self.across = Axis(self.frequency) if across is None else axis_of(plane, across, plane.across)
+        self.across = axis_of(plane, across, plane.across)
         self.is_column, self.is_along_nothing = len(self.frequency) == 1, across is None
         scan = scan_of(plane, up)
-        self.up, self.scan = Axis(scan), (np.min(scan), np.max(scan))
-        self.ground, self.word = ground_word(plane.file), WORDS[up]
+        self.up, self.scan = Axis(scan, is_to_scale=True), (np.min(scan), np.max(scan))
+        self.ground, self.word = ground_word(plane.file), worded(plane.file.attrs, WORDS[up])
         self.flips = plane.read(name_of_flips(up))
         codes = np.stack([plane.read(name) for name in ("region_below", "region_above")])
         self.below, self.above = VERDICTS[codes]
@@ -140,7 +141,7 @@ def legend_entries(all_lines):
         (lambda lines: lines.has_undecided, (shade_of(UNDECIDED), marks("v", DOUBTFUL, 5)),
          "undecided, or more flips"),
         (lambda lines: lines.below[0] == NOT_COMPUTED, shade_of(NOT_COMPUTED), "not computed yet"),
-        (lambda lines: lines.across.is_between(ROWS), shade_of(NOT_SCANNED), "between computed values")]
+        (lambda lines: lines.across.scale != BANDS and lines.across.is_between(ROWS), shade_of(NOT_SCANNED), "between computed values")]
     shown = [(handle, label) for is_in, handle, label in entries
              if any(np.any(is_in(lines)) for lines in all_lines)]
     return tuple(zip(*shown))
@@ -161,11 +162,12 @@ def note_on_strips(plane, lines):
             "which are not drawn.")
 
 
-def draw_sheet(planes, columns, units):
+def draw_sheet(planes, columns, left_out, units):
     """Draws several boundaries and returns their axes."""
     all_lines = [Lines(plane, units) for plane in planes]
-    shares = all(np.array_equal(lines.up.edges, all_lines[0].up.edges) for lines in all_lines)
-    sheet = Sheet((plain(heading(planes)), subtitle(planes, units)), panel_titles(planes, units), columns, 120, shares)
+    second = ",  ".join([subtitle(planes, units)] + [left_out] * bool(left_out))
+    sheet = Sheet((plain(heading(planes)), second), panel_titles(planes, units), columns, 120,
+                  [(lines.across, lines.up) for lines in all_lines])
     for panel, lines in zip(sheet.panels.flat, all_lines):
         draw_panel(panel, lines)
     sheet.name_axes(*name_axes(planes[0], units))
@@ -222,16 +224,16 @@ def draw_figure(plane, units):
 def draw(path, arguments, ax=None):
     """Draws into the given axes, or without them a figure. Returns the axes; a list of them for several boundaries."""
     with open_result(path, "overturning boundary",
-                     "a boundary written by overturn boundary") as file, damage_reported(path):
+                     "a boundary written by overturn boundary") as file, damage_reported(file.filename):
         expect_size(file, arguments.units)
-        planes, columns = planes_of(file, arguments, 1 if ax is not None else MOST_PANELS)
+        planes, columns, left_out = sheet_of(file, arguments, 1 if ax is not None else MOST_PANELS)
         if ax is not None:
             draw_panel(ax, Lines(planes[0], arguments.units))
             across, up = name_axes(planes[0], arguments.units)
             ax.set(xlabel=across, ylabel=up)
             return ax
         if len(planes) > 1:
-            return draw_sheet(planes, columns, arguments.units)
+            return draw_sheet(planes, columns, left_out, arguments.units)
         return draw_figure(planes[0], arguments.units)
 
 
@@ -239,14 +241,14 @@ def boundary(result, *, motion: int | None = None, slenderness: int | None = Non
              restitution: int | None = None, index: Mapping[str, int] = {}, units: str = "job", ax=None):
     """Draws a boundary, as tools/plot_boundary does.
 
-    result: the path of a file, or the data set that overturn.open() returned for it. motion, slenderness,
+    result: the path of a file, or the whole data set that overturn.open() returned for it. motion, slenderness,
     restitution: indices, counted from 0, of one boundary of several. index: the same for any dimensions, such as
     {"height": 0}. units: "job", or "physical" for s and g. ax: axes of Matplotlib to draw into, without a legend.
 
     Returns the axes; a list of them for several boundaries. Raises overturn.ToolError."""
     arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,
                                 index=index.items(), units=units)
-    return draw(path_of(result), arguments, ax)
+    return draw(result, arguments, ax)
 
 
 def read_arguments(argv):

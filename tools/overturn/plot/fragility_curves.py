@@ -9,9 +9,10 @@ import textwrap
 import numpy as np
 import overturn
 from matplotlib import pyplot
+from matplotlib.lines import Line2D
 from overturn.block_groups import counted, groups_of
 from overturn.output_file import save
-from overturn.plot.headings import wrapped
+from overturn.plot.headings import LINE, POINTS, wrapped
 from overturn.result_file import escaped, plain, shortened
 from overturn.ticks import name_ticks
 from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
@@ -35,29 +36,58 @@ BAND, POINT = "#b9cfdd", "#b3541e"
 # Of the curves: CIE L* from 24 to 60, with markers of their own.
 COLOURS, MARKERS = ("#0b3c5d", "#c9741a", "#3f7a43", "#8f2d56", "#7d7d85", "#4b2e83"), "osD^vP"
 NAMES = {"pga": "PGA", "pgv": "PGV", "arias_intensity": "Arias intensity",
-         "significant_duration": "significant duration"}
+         "significant_duration": "significant duration", "pfa": "PFA", "pfv": "PFV",
+         "floor_arias_intensity": "Arias intensity of the floor",
+         "floor_significant_duration": "significant duration of the floor"}
 UNITS = {"m s-1": "m/s"}
 TEXT_WIDTH = 58  # characters that fit below a panel
+TITLE_WIDTH = 4.6  # above it [inches]
+WITHOUT_VERDICT = "with points without a verdict"
 
 
 def fragility(curve, ax=None):
     """Draws a fragility curve (overturn.fragility) and returns the axes: the fraction of each bin, the fitted
     curve and its confidence band. Bins with points without a verdict have a bar over the fractions that these
     points could give. Notes are written below the axes."""
+    if not isinstance(curve, overturn.Fragility):
+        raise ValueError(f"{curve!r:.60} is no fragility curve. Give what overturn.fragility() returns.")
     if ax is None:
         ax = pyplot.figure(figsize=(5.5, 4.8), layout="constrained").add_subplot()
+        return make_room([draw_panel(ax, [curve])])[0]
     return draw_panel(ax, [curve])
+
+
+def make_room(panels):
+    """Enlarges the figure of panels side by side, which has room for a plot and a line below it in each, by the notes
+    below the panels and the legends beside them."""
+    figure = panels[0].figure
+    width, height = figure.get_size_inches()
+    legends = [box.width / figure.dpi + 0.1 for box in map(_legend_beside, panels) if box]
+    lowest = max([box.height / figure.dpi + 1 for box in map(_legend_beside, panels) if box], default=0)
+    lines = max(panel.get_xlabel().count("\n") for panel in panels)
+    figure.set_size_inches(width + sum(legends), max(height, lowest) + lines * LINE * pyplot.rcParams["font.size"] / POINTS)
+    return panels
+
+
+def _legend_beside(panel):
+    """Returns the extent of the legend of groups, or None."""
+    legend = panel.get_legend()
+    return legend.get_window_extent() if legend and legend.get_bbox_to_anchor().width == 0 else None
 
 
 def draw_panel(ax, curves):
     """Draws the curves of one intensity measure, one for each group of blocks."""
     first, is_alone = curves[0], len(curves) == 1
     styles = itertools.product(("-", "--"), zip(COLOURS, MARKERS))
+    entries = []
     for curve, (line, (colour, marker)) in zip(curves, styles):
+        fillstyle = "full" if line == "-" else "none"
         if len(curve.edges):
-            draw_bins(ax, curve, POINT if is_alone else colour, marker, "full" if line == "-" else "none")
+            draw_bins(ax, curve, POINT if is_alone else colour, marker, fillstyle)
         if np.isfinite(curve.median):
             draw_fit(ax, curve, colour, line, len(curves))
+        entries.append(Line2D([], [], color=colour, linestyle=line if np.isfinite(curve.median) else "none",
+                              marker=marker, fillstyle=fillstyle, label=group_text(curve)))
     ends = [end for curve in curves if len(curve.edges) for end in (curve.edges[0] / 1.05, curve.edges[-1] * 1.05)]
     if ends:
         ax.set_xscale("log")
@@ -69,13 +99,26 @@ def draw_panel(ax, curves):
     notes = [escaped(f"{curve.group}: {note}" if curve.group else note) for curve in curves for note in curve.notes]
     ax.set_xlabel("\n".join([f"{NAMES.get(first.im, first.im)} [{UNITS.get(first.units, first.units)}]",
                              *(line for note in notes for line in textwrap.wrap(note, TEXT_WIDTH))]))
-    ax.set_title(counts_text(curves), fontsize=9)
+    ax.set_title("\n".join(wrapped(counts_text(curves), 9, TITLE_WIDTH)), fontsize=9)
     ax.grid(color="0.9")
     ax.set_axisbelow(True)
-    if ax.get_legend_handles_labels()[0]:
-        where = {"loc": "best"} if is_alone else {"loc": "upper left", "bbox_to_anchor": (1.01, 1.0)}
-        ax.legend(fontsize=9, **where)
+    if not is_alone:
+        bars = [handle for handle, label in zip(*ax.get_legend_handles_labels()) if label == WITHOUT_VERDICT][:1]
+        ax.legend(handles=entries + bars, fontsize=9, handlelength=3, loc="upper left", bbox_to_anchor=(1.01, 1.0))
+    elif ax.get_legend_handles_labels()[0]:
+        ax.legend(fontsize=9, loc="best")
     return ax
+
+
+def group_text(curve):
+    """Returns the blocks of a group, and the numbers of their curve."""
+    blocks = escaped(f"{shortened(curve.group, 40)} ({counted(curve.blocks, curve.kind)})")
+    return blocks + f"\n{fit_text(curve)}" * bool(np.isfinite(curve.median))
+
+
+def fit_text(curve):
+    is_within = curve.edges[0] <= curve.median <= curve.edges[-1]
+    return rf"median {curve.median:.3g}{'' if is_within else ' (extrapolated)'}, $\beta$ = {curve.beta:.2f}"
 
 
 def counts_text(curves):
@@ -90,14 +133,13 @@ def counts_text(curves):
 def draw_bins(ax, curve, colour, marker, fillstyle):
     decided = curve.points > 0
     ax.plot(curve.mean[decided], curve.fraction[decided], marker, color=colour, fillstyle=fillstyle, zorder=3,
-            label=escaped(f"{shortened(curve.group, 32)} ({counted(curve.blocks, curve.kind)})") if curve.group
-            else "fraction of the points in a bin")
+            label="fraction of the points in a bin")
     unknown = curve.without_verdict > 0
     if unknown.any():
         total = (curve.points + curve.without_verdict)[unknown]
         low, high = curve.exceeding[unknown] / total, (curve.exceeding + curve.without_verdict)[unknown] / total
         ax.vlines(curve.mean[unknown], low, high, color=colour, linewidth=4, alpha=0.45,
-                  label="with points without a verdict")
+                  label=WITHOUT_VERDICT)
 
 
 def draw_fit(ax, curve, colour, line, count):
@@ -105,10 +147,7 @@ def draw_fit(ax, curve, colour, line, count):
     if np.isfinite(curve.band).all() and count <= len(COLOURS):  # more bands would hide each other
         how = {"color": BAND, "label": "95 % confidence of the curve"} if is_alone else {"color": colour, "alpha": 0.12}
         ax.fill_between(curve.value, *curve.band, linewidth=0, **how)
-    is_within = curve.edges[0] <= curve.median <= curve.edges[-1]
-    ax.plot(curve.value, curve.probability, line, color=colour, linewidth=2,
-            label=rf"{'lognormal: ' * is_alone}median {curve.median:.3g}{'' if is_within else ' (extrapolated)'}, "
-                  rf"$\beta$ = {curve.beta:.2f}")
+    ax.plot(curve.value, curve.probability, line, color=colour, linewidth=2, label=f"lognormal: {fit_text(curve)}")
 
 
 def add_curve_arguments(parser, bins):
@@ -134,8 +173,8 @@ def compute_curve(dataset, im, arguments, **further):
 def read_arguments(argv):
     parser = parser_of("plot_fragility", __doc__, EXAMPLE, "overturn run under records")
     parser.add_argument("--im", metavar="MEASURE", nargs="+", default=["pgv"],
-                        help="intensity measures: pga, pgv, arias_intensity or significant_duration "
-                             "(default: pgv)")
+                        help="intensity measures: pga, pgv, arias_intensity or significant_duration; under motions "
+                             "of a floor, those of the floor, and ground_pga if it is known (default: pgv)")
     parser.add_argument("--by", metavar="COLUMN",
                         help="a curve for each value of a column of the table of blocks, or of an axis such as "
                              "size; of more than 6 numbers, for each quarter of the blocks")
@@ -191,9 +230,8 @@ def main(argv=None):
             if arguments.csv:
                 write_csv(curve, number, arguments)
     figure, panels = pyplot.subplots(1, len(by_measure), squeeze=False, sharey=True, layout="constrained",
-                                     figsize=((5.5 if arguments.by is None else 8.3) * len(by_measure), 5.2))
-    for panel, curves in zip(panels.flat, by_measure):
-        draw_panel(panel, curves)
+                                     figsize=(5.5 * len(by_measure), 5.2))
+    make_room([draw_panel(panel, curves) for panel, curves in zip(panels.flat, by_measure)])
     for panel in panels.flat[1:]:
         panel.set_ylabel("")
     lines = wrapped(plain(title), 12, 0.96 * figure.get_figwidth())

@@ -12,10 +12,11 @@ from matplotlib import pyplot
 from matplotlib.lines import Line2D
 from overturn.captions import SIZES, file_name, ground_text, ground_word, is_linear, is_recorded, slenderness_text
 from overturn.file_variables import text_of
+from overturn.motion_words import worded
 from overturn.output_file import save
 from overturn.plot.headings import Heading
 from overturn.regions import REGIONS, UNDECIDED, meaning_of
-from overturn.result_file import damage_reported, job_text, open_result, path_of, plain, title_of
+from overturn.result_file import damage_reported, job_text, open_result, plain, title_of
 from overturn.spectrum_file import EQUIVALENTS, JOB, PHYSICAL, RATES, STRENGTHS
 from overturn.ticks import name_ticks
 from overturn.tool import ToolError, parse_with_picture, parser_of
@@ -98,6 +99,7 @@ class History:
         if units == PHYSICAL:
             self.panels = [(name, PHYSICAL_LABELS[name], share) for name, _, share in self.panels]
             per_angle = np.radians(1)
+        self.panels = [(name, worded(file.attrs, label), share) for name, label, share in self.panels]
         time = file["time"][:] / per_time
         shown = (time >= start) & (time <= until)
         self.start, self.time = start, time[shown]
@@ -245,7 +247,7 @@ def describe(file, units=JOB):
         outcome += "; the curve is uncertain"
     threshold = r"\alpha" if is_linear(file) else r"\tan\alpha"
     shown = point_of(file, units)
-    point = [f"{symbol.replace('{threshold}', threshold)} = {attributes[name]:.4g}{unit}, "
+    point = [f"{worded(attributes, symbol).replace('{threshold}', threshold)} = {attributes[name]:.4g}{unit}, "
              for name, symbol, unit in AXES if name in shown]
     if "frequency_parameter_minus" in attributes and "frequency_parameter" in shown:
         minus = attributes["frequency_parameter_minus"]
@@ -288,7 +290,7 @@ def draw_figure(file, history, units):
 def draw(path, arguments, ax=None):
     """Draws the tilt into the given axes, or without them a figure. Returns the axes."""
     with (open_result(path, "rocking history", "a history written by overturn history") as file,
-          damage_reported(path, ValueError)):
+          damage_reported(file.filename, ValueError)):
         expect_size(file, arguments.units)
         shown = History(file, arguments.start, arguments.until, arguments.units)
         if ax is None:
@@ -305,12 +307,12 @@ def draw(path, arguments, ax=None):
 def history(result, *, start: float = 0, until: float = np.inf, units: str = "job", ax=None):
     """Draws the motion of a block, as tools/plot_history does.
 
-    result: the path of a file, or the data set that overturn.open() returned for it. start, until: times
+    result: the path of a file, or the whole data set that overturn.open() returned for it. start, until: times
     [1/p]; under a record or in physical units [s]. units: "job", or "physical" for s and degrees. ax:
     axes of Matplotlib to draw the tilt into.
 
     Returns a list of axes, from the ground motion down, or ax. Raises overturn.ToolError."""
-    return draw(path_of(result), SimpleNamespace(start=start, until=until, units=units), ax)
+    return draw(result, SimpleNamespace(start=start, until=until, units=units), ax)
 
 
 def read_arguments(argv):

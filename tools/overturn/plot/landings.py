@@ -4,16 +4,16 @@ coloured by the points of the plane."""
 import numpy as np
 from matplotlib import pyplot
 from overturn.captions import ground_word, heading, is_recorded, subtitle
-from overturn.choice import add_choice_arguments, planes_of
+from overturn.choice import add_choice_arguments, plane_of
 from overturn.output_file import save
 from overturn.phase_space import HALF_TURN, block_of, draw_boundaries, fill_libration, name_phase_axes
+from overturn.plot.bands import set_axes
 from overturn.plot.headings import Heading
 from overturn.plot.spectra import cover, hatch
 from overturn.region_labels import add_label_argument, pieces, thinned, write_label
-from overturn.regions import LEFT_STANDING, NOT_COMPUTED, REGIONS
+from overturn.regions import APART, BETWEEN, LEFT_STANDING, NOT_COMPUTED, REGIONS
 from overturn.result_file import damage_reported, plain
-from overturn.spectrum_file import open_spectrum
-from overturn.ticks import set_axes
+from overturn.spectrum_file import open_spectrum, without_gaps
 from overturn.tool import parse_with_picture, parser_of
 from overturn.units import axes_of_plane, name_axes
 
@@ -124,12 +124,13 @@ def borders(codes):
 
 
 def draw_plane(panel, spectrum):
-    codes, = spectrum.sample(PLANE_PIXELS, "region")
+    codes = without_gaps(*spectrum.sample(PLANE_PIXELS, "region"), spectrum.up, spectrum.across)
     shade = (np.arange(PLANE_PIXELS) + 0.5) / PLANE_PIXELS
     picture = np.zeros((PLANE_PIXELS, PLANE_PIXELS, 4))
     picture[..., 0], picture[..., 2], picture[..., 3] = shade, shade[:, None], 1
     picture[borders(codes)] = 1
-    picture[codes == NOT_COMPUTED] = 0
+    picture[np.isin(codes, [NOT_COMPUTED, BETWEEN])] = 0
+    picture[codes == APART] = 1
     set_axes(panel, spectrum.across, spectrum.up)
     hatch(panel)
     cover(panel, picture)
@@ -214,6 +215,6 @@ def main(argv=None):
     arguments = read_arguments(argv)
     with open_spectrum(arguments.file, ("region", "angle", "velocity")) as file, \
             damage_reported(arguments.file):
-        (plane,), _ = planes_of(file, arguments)
+        plane = plane_of(file, arguments)
         figure = draw(plane, arguments.title, arguments.label)
     save(figure, arguments.output, dpi=150)

@@ -8,6 +8,7 @@ import textwrap
 import numpy as np
 import overturn
 from matplotlib import pyplot
+from overturn.motion_words import variable_of_ground
 from overturn.output_file import save
 from overturn.plot.fragility_curves import (BAND, COLOURS, NAMES, POINT, UNITS, add_curve_arguments, compute_curve,
                                              draw_bins)
@@ -150,7 +151,8 @@ def compute(arguments):
         raise ToolError(f"cannot read \"{arguments.file}\": {error}") from error
     with dataset:
         try:
-            curve = compute_curve(dataset, hazard.im, arguments, together=arguments.together)
+            curve = compute_curve(dataset, variable_of_ground(dataset.attrs, hazard.im), arguments,
+                                  together=arguments.together)
         except ValueError as error:
             raise ToolError(f"\"{arguments.file}\": {error}", USAGE) from error
         return dataset.attrs.get("title") or f"Risk: {pathlib.Path(arguments.file).name}", hazard, curve

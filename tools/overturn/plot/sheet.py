@@ -1,40 +1,53 @@
 """Sheets of several planes."""
 
+import numpy as np
 from matplotlib import pyplot
-from overturn.plot.headings import Heading, wrapped
+from overturn.plot.bands import BandTicks
+from overturn.plot.headings import LINE, POINTS, Heading, wrapped
 
-MOST_PANELS = 12
+MOST_PANELS = 100
+SIDES = {1: 20 / 3, 2: 4.4, 3: 3.4, 4: 2.8, 5: 2.3, 6: 2.0, 7: 1.75, 8: 1.6, 9: 1.5, 10: 1.4}  # by the columns [inches]
+MOST_HEIGHT = 32  # of the panels [inches]
 
 
 class Sheet:
     """A figure of equal square panels; lengths in inches fix the number of pixels of a panel. Panels
-    with the same vertical axis share the numbers beside it."""
+    with the same axis share the numbers beside it."""
 
     LEFT, RIGHT, BOTTOM, GAP, EDGE = 0.85, 3.25, 0.7, 0.45, 0.1
 
-    def __init__(self, heading, titles, columns, dpi, shares_vertical_axis):
-        """`heading` is a pair, the title of the sheet and the line below it; `titles` are those of the panels."""
+    def __init__(self, heading, titles, columns, dpi, axes):
+        """`heading` is a pair, the title of the sheet and the line below it; `titles` are those of the panels, and
+        `axes` pairs of Axis of each, the horizontal and the vertical one."""
         count = len(titles)
         rows = -(-count // columns)
-        side = {1: 20 / 3, 2: 4.4, 3: 3.4, 4: 2.8}[columns]
+        side = min(SIDES[columns], max(MOST_HEIGHT / rows, SIDES[10]))
         self.pixels = round(side * dpi)
-        self.width = self.LEFT + columns * (side + self.GAP) - self.GAP + self.RIGHT
-        heading = Heading(*heading, self.width - self.LEFT - self.EDGE, (14, 11))
-        titles = ["\n".join(line for words in title.split("\n") for line in wrapped(words, 9, side + self.GAP / 2, ","))
-                  for title in titles]
+        shares = [all(np.array_equal(axis.edges, of_kind[0].edges) and np.array_equal(axis.values, of_kind[0].values)
+                      for axis in of_kind) for of_kind in zip(*axes)]
+        below, beside = (max((BandTicks(axis.ticks()[1], side, name).extent() for axis in of_kind if axis.ticks()),
+                                  default=0.0) for of_kind, name in zip(zip(*axes), "xy"))
+        self.left, self.bottom = self.LEFT + beside, self.BOTTOM + below
+        across = self.GAP + (0 if shares[1] else beside)
+        self.width = self.left + columns * (side + across) - across + self.RIGHT
+        heading = Heading(*heading, self.width - self.left - self.EDGE, (14, 11))
+        size = 9 if side >= SIDES[4] else 7
+        titles = ["\n".join(line for words in title.split("\n")
+                            for line in wrapped(words, size, side + self.GAP / 2, ",")) for title in titles]
         further = max(title.count("\n") for title in titles)  # lines above a panel
-        gap = self.GAP + 0.15 * max(0, further - 1)
-        self.top = 1 + 0.15 * further + heading.extra
-        self.height = self.top + rows * (side + gap) - gap + self.BOTTOM
+        line = size * LINE * 1.3 / POINTS
+        gap = self.GAP + line * max(0, further - 1) + (0 if shares[0] else below + 0.2)
+        self.top = 1 + line * further + heading.extra
+        self.height = self.top + rows * (side + gap) - gap + self.bottom
         self.figure, self.panels = pyplot.subplots(rows, columns, squeeze=False, dpi=dpi,
-                                                   sharex=True, sharey=shares_vertical_axis,
+                                                   sharex=shares[0], sharey=shares[1],
                                                    figsize=(self.width, self.height))
-        heading.write(self.figure, self.LEFT, (0.4, 0.67))
+        heading.write(self.figure, self.left, (0.4, 0.67))
         for panel, title in zip(self.panels.flat, titles):
-            panel.set_title(title, fontsize=9)
-        self.figure.subplots_adjust(self.LEFT / self.width, self.BOTTOM / self.height,
+            panel.set_title(title, fontsize=size)
+        self.figure.subplots_adjust(self.left / self.width, self.bottom / self.height,
                                     1 - self.RIGHT / self.width, 1 - self.top / self.height,
-                                    self.GAP / side, gap / side)
+                                    across / side, gap / side)
         for unused in self.panels.flat[count:]:
             unused.set_visible(False)
         for lowest in self.panels.flat[max(count - columns, 0):count]:
@@ -42,9 +55,9 @@ class Sheet:
 
     def name_axes(self, across, up):
         self.figure.supxlabel(across, fontsize=12, y=0.15 / self.height,
-                              x=(self.LEFT + self.width - self.RIGHT) / 2 / self.width)
+                              x=(self.left + self.width - self.RIGHT) / 2 / self.width)
         self.figure.supylabel(up, fontsize=12, x=0.15 / self.width,
-                              y=(self.BOTTOM + self.height - self.top) / 2 / self.height)
+                              y=(self.bottom + self.height - self.top) / 2 / self.height)
 
     def explain(self, **entries):
         corner = (1 - (self.RIGHT - 0.2) / self.width, 1 - self.top / self.height)

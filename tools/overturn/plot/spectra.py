@@ -10,17 +10,17 @@ import numpy as np
 from matplotlib.lines import Line2D
 from overturn import practice
 from overturn.captions import ground_word, heading, panel_titles, subtitle
-from overturn.choice import add_choice_arguments, planes_of
+from overturn.choice import add_choice_arguments, sheet_of
 from overturn.friction import expect_coefficient
 from overturn.output_file import save
 from overturn.overlay import draw_boundary, open_boundary
+from overturn.plot.bands import set_axes
 from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.region_labels import Label, add_label_argument, thinned, write_label
 from overturn.regions import coloured, legend_entries
-from overturn.result_file import damage_reported, path_of, plain
+from overturn.result_file import damage_reported, plain
 from overturn.slipping import Slipping
 from overturn.spectrum_file import open_spectrum
-from overturn.ticks import set_axes
 from overturn.tool import parse_with_picture, parser_of
 from overturn.units import add_units_argument, axes_of_plane, expect_size, name_axes
 
@@ -29,8 +29,8 @@ example:
   overturn run jobs/figure_07a.toml              # writes figure_07a.h5
   tools/plot_spectrum figure_07a.h5              # draws figure_07a.png
 
-A file of several spectra (such as records, slendernesses, restitutions) is plotted as a grid of up
-to 12 maps:
+A file of several spectra (such as records, blocks of a table, slendernesses) is plotted as a grid of maps; of more
+than 100, so many in even steps:
   tools/plot_spectrum four_axes.h5 -o nine.pdf
   tools/plot_spectrum four_axes.h5 --slenderness 0 --restitution 2   # the first and the third
   tools/plot_spectrum suite.h5 --motion 0        # the first record of a suite
@@ -99,12 +99,12 @@ def draw_panels(panels, pixels, planes, axes, arguments, slipping):
     return present
 
 
-def draw_sheet(planes, columns, counts, arguments, dpi):
+def draw_sheet(planes, columns, left_out, counts, arguments, dpi):
     units, ground = arguments.units, ground_word(planes[0].file)
-    axes = [axes_of_plane(plane, units) for plane in planes]
-    shares = all(np.array_equal(up.edges, axes[0][1].edges) for _, up in axes)
+    axes = [axes_of_plane(plane, units, arguments.boundary is not None) for plane in planes]
     title = heading(planes) if arguments.title is None else arguments.title
-    sheet = Sheet((plain(title), subtitle(planes, units)), panel_titles(planes, units), columns, dpi, shares)
+    second = ",  ".join([subtitle(planes, units)] + [left_out] * bool(left_out))
+    sheet = Sheet((plain(title), second), panel_titles(planes, units), columns, dpi, axes)
     present = draw_panels(sheet.panels.flat, sheet.pixels, planes, axes, arguments, counts.get("friction"))
     sheet.name_axes(*name_axes(planes[0], units))
     entries = legend_entries(present, ground)
@@ -120,20 +120,20 @@ def draw_into(ax, plane, counts, arguments):
     """Draws one spectrum without a legend; a point of the picture per pixel of the axes."""
     size = ax.get_window_extent()
     pixels = max(1, round(max(size.width, size.height)))
-    draw_panels([ax], pixels, [plane], [axes_of_plane(plane, arguments.units)], arguments,
-                counts.get("friction"))
+    axes = axes_of_plane(plane, arguments.units, arguments.boundary is not None)
+    draw_panels([ax], pixels, [plane], [axes], arguments, counts.get("friction"))
     across, up = name_axes(plane, arguments.units)
     ax.set(xlabel=across, ylabel=up, title=arguments.title or "")
 
 
 def draw(path, arguments, dpi, ax=None):
     """Draws into the given axes, or without them a sheet, which is returned with the number of its spectra and the
-    counts of points that an option marks."""
+    lines of a report: what is left out, and the counts of points that an option marks."""
     marked = {"peak": arguments.practice, "friction": arguments.friction is not None}
     fields = ("region", *(field for field, is_asked in marked.items() if is_asked))
-    with open_spectrum(path, fields) as file, damage_reported(path):
+    with open_spectrum(path, fields) as file, damage_reported(file.filename):
         expect_size(file, arguments.units)
-        planes, columns = planes_of(file, arguments, 1 if ax is not None else MOST_PANELS)
+        planes, columns, left_out = sheet_of(file, arguments, 1 if ax is not None else MOST_PANELS)
         counts = {}
         if marked["peak"]:
             counts["peak"] = practice.Misjudged(planes)
@@ -141,7 +141,8 @@ def draw(path, arguments, dpi, ax=None):
             counts["friction"] = Slipping(planes, arguments.friction)
         if ax is not None:
             return draw_into(ax, planes[0], counts, arguments)
-        return draw_sheet(planes, columns, counts, arguments, dpi), len(planes), counts
+        report = [left_out] * bool(left_out) + [count.report() for count in counts.values()]
+        return draw_sheet(planes, columns, left_out, counts, arguments, dpi), len(planes), report
 
 
 def spectrum(result, *, motion: int | None = None, slenderness: int | None = None,
@@ -149,7 +150,8 @@ def spectrum(result, *, motion: int | None = None, slenderness: int | None = Non
              practice: bool = False, friction: float | None = None, labels: tuple[str, ...] = (), title: str | None = None, ax=None):
     """Draws overturning spectra as maps of regions, as tools/plot_spectrum does.
 
-    result: the path of a file, or the data set that overturn.open() returned for it. motion, slenderness,
+    result: the path of a file, or a data set of overturn.open(), of which parts may be selected and values changed.
+    What where() left out is hatched. motion, slenderness,
     restitution: indices, counted from 0, of one spectrum of several. index: the same for any dimensions, such as
     {"height": 0}. units: "job", or "physical" for s and g. boundary: the path of a boundary to draw on it.
     practice: mark what published practice misjudges; needs the field peak. friction: hatch what needs a larger friction
@@ -160,7 +162,7 @@ def spectrum(result, *, motion: int | None = None, slenderness: int | None = Non
     arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,
                                 index=index.items(), units=units, boundary=boundary, practice=practice, friction=friction,
                                 label=[Label(words) for words in labels], title=title)
-    drawn = draw(path_of(result), arguments, 150, ax)
+    drawn = draw(result, arguments, 150, ax)
     if ax is not None:
         return ax
     sheet, count, _ = drawn
@@ -197,7 +199,7 @@ def read_arguments(argv):
 def main(argv=None):
     arguments = read_arguments(argv)
     dpi = 150 if arguments.output.endswith(".png") else 300
-    sheet, _, counts = draw(arguments.file, arguments, dpi)
+    sheet, _, report = draw(arguments.file, arguments, dpi)
     save(sheet.figure, arguments.output)
-    for count in counts.values():
-        print(count.report())
+    for lines in report:
+        print(lines)

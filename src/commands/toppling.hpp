@@ -1,0 +1,60 @@
+// Whether one block topples under one motion in one direction, and at which peak accelerations.
+#pragma once
+
+#include "verdict_ranges.hpp"
+
+#include "overturn/problem/problem.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace overturn {
+
+struct RestitutionAnswer {
+    double share; ///< r / r_max; NaN if there is no r_max
+    double ratio; ///< r
+    VerdictRanges ranges;
+};
+
+/// What is asked of a problem with a single point.
+struct ToppleQuestion {
+    bool has_strength;         ///< whether the strength of the point is asked for
+    std::optional<double> pga; ///< its peak acceleration over g, if that is given [1]
+    double pga_max;            ///< the end of the search, unless the strength is larger [1]
+    /// Called again and again, with the numbers of restitutions that are computed, and of all.
+    std::function<void(std::size_t done, std::size_t all)> progress = nullptr;
+};
+
+struct ToppleAnswer {
+    double direction = 0;           ///< of the motion [degree]
+    std::optional<Verdict> verdict; ///< nullopt if no strength is asked for
+    double peak = 0;                ///< |theta| / alpha
+    std::optional<double> friction; ///< see Field::friction; nullopt in the linear theory
+    /// For each toppling range of the requested restitution: the largest friction from uplift to
+    /// its lower end, NaN if one is unknown; empty in the linear theory.
+    std::vector<double> friction_to_topple;
+    double pga = 0;  ///< of the point
+    double unit = 0; ///< of the strength 1: of the record that is not scaled
+    double lifting_pga = 0;
+    std::vector<RestitutionAnswer> by_restitution; ///< the requested one first
+
+    const RestitutionAnswer& requested() const { return by_restitution.front(); }
+};
+
+/// The directions of the motion that are computed [degree]: the given one. Without it the motion as
+/// it stands and, of a block whose sides differ, its mirror image, because either may be worse.
+std::vector<double> directions_of(const Problem& problem);
+
+/// Throws Error if the record has no motion in this direction.
+ToppleAnswer answer_of(const Problem& problem, const ToppleQuestion& question);
+
+/// Whether the answer for one direction of a motion is worse than that for another one: the block
+/// topples, or may topple; or it topples closer to the asked strength; without one, at less.
+bool is_worse(const ToppleAnswer& one, const ToppleAnswer& other);
+
+/// The share of the restitutions' searches in which verdicts are undecided, the largest one [1].
+double undecided_share(const ToppleAnswer& answer);
+
+} // namespace overturn
