@@ -45,6 +45,14 @@ std::size_t length_of_number(std::string_view text)
     return text.size();
 }
 
+/// The number of digits between the point and the exponent.
+std::size_t decimals_of(std::string_view number)
+{
+    const std::size_t exponent = std::min(number.find_first_of("eEdD"), number.size());
+    const std::size_t point = number.find('.');
+    return point < exponent ? exponent - point - 1 : 0;
+}
+
 /// Whether the number in a column continues in the next one: a digit or a point follows it, and it
 /// does not have all its decimals.
 bool is_cut(std::string_view line, const Columns& columns, std::size_t index)
@@ -55,11 +63,7 @@ bool is_cut(std::string_view line, const Columns& columns, std::size_t index)
         std::string_view(" \t").find(line[end - 1]) != line.npos) {
         return false;
     }
-    const std::string_view word = column_of(line, columns.width, index);
-    const std::size_t point = std::min(word.find('.'), word.size());
-    const std::size_t last = std::min(word.find_first_of("eEdD"), word.size());
-    const std::size_t decimals = point < last ? last - point - 1 : 0;
-    return decimals != *columns.decimals;
+    return decimals_of(column_of(line, columns.width, index)) != *columns.decimals;
 }
 
 } // namespace
@@ -71,7 +75,7 @@ bool is_number(std::string_view word)
 
 bool is_mark_of_unknown(double number)
 {
-    constexpr std::array marks{-99.0, -999.0, -9999.0, -99999.0, -999999.0, -12345.0, -32768.0};
+    constexpr std::array marks{-999.0, -9999.0, -99999.0, -999999.0, -12345.0, -32768.0};
     constexpr double nearly_largest_of_single_precision = 1.69e38;
     return is_one_of(number, marks) || std::abs(number) >= nearly_largest_of_single_precision;
 }
@@ -79,10 +83,9 @@ bool is_mark_of_unknown(double number)
 double rounding_of(std::string_view number)
 {
     const std::size_t exponent = std::min(number.find_first_of("eEdD"), number.size());
-    const std::size_t point = std::min(number.find('.'), exponent);
-    const auto decimals = double(point < exponent ? exponent - point - 1 : 0);
     const Parsed power = parse(number.substr(std::min(exponent + 1, number.size())));
-    return 0.5 * std::pow(10, (power.error == std::errc() ? power.value : 0) - decimals);
+    return 0.5 * std::pow(10, (power.error == std::errc() ? power.value : 0) -
+                                  double(decimals_of(number)));
 }
 
 namespace {
