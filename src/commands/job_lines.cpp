@@ -281,6 +281,16 @@ std::string_view quantity_meant_by(std::string_view column, const Grid& grid)
 
 } // namespace
 
+std::vector<std::string> remarks_on_records(const Job& job)
+{
+    std::vector<std::string> remarks;
+    for (const Motion& motion : job.motions) {
+        std::ranges::copy_if(motion.remarks, std::back_inserter(remarks),
+                             [&](const auto& remark) { return !is_one_of(remark, remarks); });
+    }
+    return remarks;
+}
+
 void warn_of_probable_mistakes(const Job& job)
 {
     const auto warn = [](const std::string& text) {
@@ -290,6 +300,9 @@ void warn_of_probable_mistakes(const Job& job)
     const Grid& grid = job.problem.grid;
     if (const std::string values = implausible_values(job.problem.scene, grid); !values.empty()) {
         warn(values);
+    }
+    for (const std::string& remark : remarks_on_records(job)) {
+        warn(remark);
     }
     for (const TableColumn& column :
          job.blocks ? job.blocks->table.columns : std::vector<TableColumn>()) {

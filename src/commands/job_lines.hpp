@@ -42,7 +42,11 @@ std::string unused_columns(const Job& job);
 /// What a reader of the log of a run must know of its records and columns.
 std::vector<std::string> notes_on(const Job& job);
 
-/// Prints to stderr what looks like a mistake in the units, and misspelt columns of a table.
+/// Numbers of the headers of the records that differ from the samples by little, each once.
+std::vector<std::string> remarks_on_records(const Job& job);
+
+/// Prints to stderr what looks like a mistake in the units or in the header of a record, and
+/// misspelt columns of a table.
 void warn_of_probable_mistakes(const Job& job);
 
 } // namespace overturn

@@ -450,8 +450,12 @@ JsonMembers json_members_of(const Job& job, const ToppleOptions& options)
     }
     add(members, "pga_max", options.pga_max);
     add(members, "narrower_ranges_exist", scene.is_recorded() ? "true" : "null");
-    const std::string warning = implausible_values(scene, job.problem.grid);
-    add(members, "warnings", fmt::format("[{}]", warning.empty() ? "" : quoted_utf8(warning)));
+    std::vector<std::string> warnings = remarks_on_records(job);
+    if (std::string values = implausible_values(scene, job.problem.grid); !values.empty()) {
+        warnings.insert(warnings.begin(), std::move(values));
+    }
+    add(members, "warnings",
+        fmt::format("[{}]", fmt::join(warnings | std::views::transform(quoted_utf8), ", ")));
     return members;
 }
 

@@ -45,21 +45,14 @@ const RecordComponent* chosen(const GivenRecord& given, const RecordFile& conten
                               const Entry& choice, bool may_be_file)
 {
     const std::string text = component_text(choice);
-    std::vector<std::string> all;
-    for (const RecordComponent& component : content.components) {
-        const std::string number = fmt::format("{}", all.size() + 1);
-        if (text == (choice.node->is_integer() ? number : component.name)) {
-            return &component;
-        }
-        all.push_back(component.name.empty()
-                          ? number
-                          : fmt::format("{} ({})", number, in_quotes(component.name)));
+    const bool is_number = choice.node->is_integer();
+    const ChosenComponent chosen = chosen_component(
+        content, is_number ? ComponentChoice(integer_of(choice)) : ComponentChoice(text),
+        given.file);
+    if (chosen.component == nullptr && (is_number || chosen.is_ambiguous || !may_be_file)) {
+        refuse(choice, " = {} {}", text, chosen.refusal);
     }
-    if (choice.node->is_integer() || !may_be_file) {
-        refuse(choice, " = {} is not a component of {}. It has the components {}.", text,
-               in_quotes(given.file), fmt::join(all, ", "));
-    }
-    return nullptr;
+    return chosen.component;
 }
 
 /// The name of a component, or its number if it has none, or none of its own, or one that looks
@@ -222,6 +215,17 @@ void expect_other(const Entry& choice, const RecordComponent& other,
     }
 }
 
+/// Of several components.
+std::vector<std::string>
+remarks_on(std::initializer_list<std::reference_wrapper<const RecordComponent>> components)
+{
+    std::vector<std::string> remarks;
+    for (const RecordComponent& component : components) {
+        remarks.insert(remarks.end(), component.remarks.begin(), component.remarks.end());
+    }
+    return remarks;
+}
+
 /// What the first of the components that state it says.
 std::optional<MotionOf>
 stated_motion_of(std::initializer_list<std::reference_wrapper<const RecordComponent>> components)
@@ -276,6 +280,7 @@ Motion read_motion(std::size_t number, const GivenRecord& given, const Reading& 
         .second = choice_of_second ? component_text(*choice_of_second) : "",
         .is_uncorrected =
             horizontal.is_uncorrected || vertical.is_uncorrected || second.is_uncorrected,
+        .remarks = remarks_on({horizontal, second, vertical}),
         .header = mapped(horizontal.header, as_utf8),
         .measures = intensity_measures(record->horizontal(), record->time_step(), reading.gravity),
         .stated_motion_of = stated_motion_of({horizontal, second, vertical}),

@@ -18,6 +18,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace py = pybind11;
@@ -197,9 +198,11 @@ py::dict evaluate(const Scene& scene, const Numerics& numerics, const Columns& c
                     "warning"_a = warning);
 }
 
-/// The components of a file: dictionaries of the members of Record in tools/overturn/records.py.
-py::list components_of(const std::string& path, std::optional<double> time_step,
-                       const std::optional<std::string>& units, double gravity)
+/// A component of a file: a dictionary of the members of Record in tools/overturn/records.py, and
+/// the remarks on it.
+py::dict component_of(const std::string& path, const ComponentChoice& choice,
+                      std::optional<double> time_step, const std::optional<std::string>& units,
+                      double gravity)
 {
     RecordOptions options;
     options.time_step = time_step;
@@ -211,24 +214,28 @@ py::list components_of(const std::string& path, std::optional<double> time_step,
         const py::gil_scoped_release released;
         return read_record(path, options);
     }();
-    py::list components;
-    for (const RecordComponent& component : file.components) {
-        using namespace py::literals;
-        const std::vector<double> values = over_gravity(component, gravity);
-        py::list header; // in any encoding
-        for (const std::string& line : component.header) {
-            header.append(py::reinterpret_steal<py::str>(
-                PyUnicode_DecodeUTF8(line.data(), py::ssize_t(line.size()), "replace")));
-        }
-        components.append(py::dict(
-            "name"_a = component.name,
-            "acceleration"_a = py::array_t<double>(py::ssize_t(values.size()), values.data()),
-            "time_step"_a = component.time_step, "format"_a = file.format,
-            "is_uncorrected"_a = component.is_uncorrected, "header"_a = header,
-            "motion_of"_a = name_of(component.motion_of.value_or(MotionOf::ground)),
-            "ground_pga"_a = component.ground_pga));
+    const ChosenComponent chosen = chosen_component(file, choice, path);
+    if (chosen.component == nullptr) {
+        throw std::invalid_argument(fmt::format(
+            "component = {} {}",
+            std::visit([](const auto& given) { return fmt::format("{}", given); }, choice),
+            chosen.refusal));
     }
-    return components;
+    using namespace py::literals;
+    const RecordComponent& component = *chosen.component;
+    const std::vector<double> values = over_gravity(component, gravity);
+    py::list header; // in any encoding
+    for (const std::string& line : component.header) {
+        header.append(py::reinterpret_steal<py::str>(
+            PyUnicode_DecodeUTF8(line.data(), py::ssize_t(line.size()), "replace")));
+    }
+    return py::dict("name"_a = component.name,
+                    "acceleration"_a =
+                        py::array_t<double>(py::ssize_t(values.size()), values.data()),
+                    "time_step"_a = component.time_step, "format"_a = file.format,
+                    "is_uncorrected"_a = component.is_uncorrected, "header"_a = header,
+                    "motion_of"_a = name_of(component.motion_of.value_or(MotionOf::ground)),
+                    "ground_pga"_a = component.ground_pga, "remarks"_a = component.remarks);
 }
 
 /// The regions of this kind by name.
@@ -253,7 +260,7 @@ PYBIND11_MODULE(_core, module)
     module.def("with_motion_of", &with_motion_of);
     module.def("numerics", &numerics_of);
     module.def("evaluate", &evaluate);
-    module.def("components_of", &components_of);
+    module.def("component_of", &component_of);
     // Earlier versions of pybind11 exchange wrong values with NumPy 2, without an error.
     module.attr("supports_numpy_2") = PYBIND11_VERSION_HEX >= 0x020C0000;
     module.attr("safe_regions") = regions(&is_safe);

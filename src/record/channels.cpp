@@ -1,5 +1,6 @@
 #include "channels.hpp"
 
+#include <algorithm>
 #include <regex>
 
 namespace overturn {
@@ -41,29 +42,62 @@ void expect_corrected_accelerogram(const Lines& lines)
     }
 }
 
-std::string channel_name(Lines header, std::size_t end)
+ChannelName channel_name(Lines header, std::size_t end)
 {
+    static const std::regex channel(R"(^[ \t]*(?:sta +)?chan?[:.]?[ \t]*[^ :(]*[ \t]*:(.*)$)",
+                                    std::regex::icase);
+    constexpr std::string_view location = "location:";
+    constexpr std::size_t most_characters = 200; // std::regex calls itself for each
     while (header.number() + 1 < end && header.next()) {
-        const std::string_view line = trimmed(header.line());
-        if (lower(line).starts_with("chan") || lower(line).starts_with("sta cha")) {
-            const std::string_view text = line.substr(0, line.find('('));
-            const std::size_t colon = text.rfind(':');
-            return std::string(colon == text.npos ? "" : trimmed(text.substr(colon + 1)));
+        const std::string line(header.line().substr(0, most_characters));
+        std::smatch found;
+        if (!std::regex_match(line, found, channel)) {
+            continue;
         }
+        const std::string text(trimmed(found.str(1)));
+        const std::size_t place = place_after(text, location);
+        const std::size_t before_place = place == text.npos ? place : place - location.size();
+        const std::size_t last =
+            std::min({text.find('('), text.find("  "), text.find('\t'), before_place, text.size()});
+        std::string_view rest = place == text.npos ? std::string_view(text).substr(last)
+                                                   : std::string_view(text).substr(place);
+        rest = rest.starts_with('(') ? "" : rest;
+        return {std::string(trimmed(text.substr(0, last))), std::string(trimmed(rest))};
     }
-    return "";
+    return {};
 }
 
-std::vector<double> take_announced(Lines& lines, std::string_view name,
-                                   const std::optional<Columns>& usual)
+namespace {
+
+Announcement announcement(const Lines& lines, std::string_view name)
 {
-    const std::size_t count = count_of(lines, first_word(lines.line()), "the number of values");
+    return {count_of(lines, first_word(lines.line()), "the number of values"), name,
+            lines.number()};
+}
+
+Columns announced_columns(const Lines& lines, const std::optional<Columns>& usual)
+{
     const auto stated = columns_of_format(lines.line());
     if (!stated && !usual) {
         lines.refuse("the line states no format of the values, such as Format=(8F10.5). Give the "
                      "file as it was published.");
     }
-    return take_columns(lines, stated ? *stated : *usual, {count, name, lines.number()});
+    return stated ? *stated : *usual;
+}
+
+} // namespace
+
+std::vector<double> take_announced(Lines& lines, std::string_view name,
+                                   const std::optional<Columns>& usual)
+{
+    const Announcement announced = announcement(lines, name);
+    return take_columns(lines, announced_columns(lines, usual), announced);
+}
+
+std::vector<Printed> take_announced_as_printed(Lines& lines, std::string_view name)
+{
+    const Announcement announced = announcement(lines, name);
+    return take_printed(lines, announced_columns(lines, {}), announced);
 }
 
 } // namespace overturn

@@ -32,13 +32,16 @@ public:
     /// Counted from 1; 0 before the first line.
     std::size_t number() const { return number_; }
 
+    /// The file and the current line, as in "a.txt:3".
+    std::string place() const { return fmt::format("{}:{}", *name_, number_); }
+
     /// Throws an Error with the file and the current line. The reason is formatted as by
     /// fmt::format().
     template <class... Arguments>
     [[noreturn]] void refuse(fmt::format_string<Arguments...> reason,
                              Arguments&&... arguments) const
     {
-        throw Error(exit_code::job, "{}:{}: {}", *name_, number_,
+        throw Error(exit_code::job, "{}: {}", place(),
                     fmt::format(reason, std::forward<Arguments>(arguments)...));
     }
 

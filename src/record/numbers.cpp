@@ -3,6 +3,7 @@
 #include "overturn/record/read_record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <numeric>
@@ -44,6 +45,14 @@ std::size_t length_of_number(std::string_view text)
     return text.size();
 }
 
+/// The number of digits between the point and the exponent.
+std::size_t decimals_of(std::string_view number)
+{
+    const std::size_t exponent = std::min(number.find_first_of("eEdD"), number.size());
+    const std::size_t point = number.find('.');
+    return point < exponent ? exponent - point - 1 : 0;
+}
+
 /// Whether the number in a column continues in the next one: a digit or a point follows it, and it
 /// does not have all its decimals.
 bool is_cut(std::string_view line, const Columns& columns, std::size_t index)
@@ -54,11 +63,7 @@ bool is_cut(std::string_view line, const Columns& columns, std::size_t index)
         std::string_view(" \t").find(line[end - 1]) != line.npos) {
         return false;
     }
-    const std::string_view word = column_of(line, columns.width, index);
-    const std::size_t point = std::min(word.find('.'), word.size());
-    const std::size_t last = std::min(word.find_first_of("eEdD"), word.size());
-    const std::size_t decimals = point < last ? last - point - 1 : 0;
-    return decimals != *columns.decimals;
+    return decimals_of(column_of(line, columns.width, index)) != *columns.decimals;
 }
 
 } // namespace
@@ -67,6 +72,35 @@ bool is_number(std::string_view word)
 {
     return parse(word).error != std::errc::invalid_argument;
 }
+
+bool is_mark_of_unknown(double number)
+{
+    constexpr std::array marks{-999.0, -9999.0, -99999.0, -999999.0, -12345.0, -32768.0};
+    constexpr double nearly_largest_of_single_precision = 1.69e38;
+    return is_one_of(number, marks) || std::abs(number) >= nearly_largest_of_single_precision;
+}
+
+double rounding_of(std::string_view number)
+{
+    const std::size_t exponent = std::min(number.find_first_of("eEdD"), number.size());
+    const Parsed power = parse(number.substr(std::min(exponent + 1, number.size())));
+    return 0.5 * std::pow(10, (power.error == std::errc() ? power.value : 0) -
+                                  double(decimals_of(number)));
+}
+
+namespace {
+
+/// Refuses a number that a format needs but that the file marks as unknown.
+void expect_known(const Lines& lines, std::string_view word, std::string_view what)
+{
+    const auto [value, error] = parse(word);
+    if (error == std::errc() && is_mark_of_unknown(value)) {
+        lines.refuse("{} is {}, which stands for an unknown number. Give a file that states it.",
+                     what, quoted_bytes(word));
+    }
+}
+
+} // namespace
 
 double number_of(const Lines& lines, std::string_view word)
 {
@@ -88,6 +122,7 @@ double number_of(const Lines& lines, std::string_view word)
 std::size_t count_of(const Lines& lines, std::string_view word, std::string_view what,
                      std::size_t least)
 {
+    expect_known(lines, word, what);
     std::size_t count = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
     if (error != std::errc() || end != word.data() + word.size() || count < least ||
@@ -101,6 +136,7 @@ std::size_t count_of(const Lines& lines, std::string_view word, std::string_view
 
 double time_step_of(const Lines& lines, std::string_view word)
 {
+    expect_known(lines, word, "the time step");
     const double step = number_of(lines, word);
     if (!(step > 0)) {
         lines.refuse("the time step is {} s, but must be above 0. Correct it.", step);
@@ -110,25 +146,14 @@ double time_step_of(const Lines& lines, std::string_view word)
 
 double sampling_rate_of(const Lines& lines, std::string_view word)
 {
+    expect_known(lines, word, "the number of samples per second");
     const double rate = number_of(lines, word);
-    if (!(rate > 0 && std::isfinite(1 / rate) && rate < 1.7e38)) {
-        lines.refuse("the number of samples per second is {}, but must be above 0 and below "
-                     "1.7e38. Correct it.",
+    if (!(rate > 0 && std::isfinite(1 / rate))) {
+        lines.refuse("the number of samples per second is {}, but must be above 0, and its inverse "
+                     "finite. Correct it.",
                      quoted_bytes(word));
     }
     return rate;
-}
-
-void expect_duration(const Lines& lines, double stated, const Sampling& sampling, double rounding)
-{
-    // The duration may be that between the first and the last sample, and may be rounded.
-    const double duration = double(sampling.count) * sampling.time_step;
-    if (!(std::abs(stated - duration) <= 0.01 * duration + 2 * sampling.time_step + rounding)) {
-        lines.refuse("the duration {} s is not that of {} {} at {} s, {:.6g} s. Correct it, or "
-                     "give the file as it was published.",
-                     stated, sampling.count, noun_of(sampling.count, "samples"), sampling.time_step,
-                     duration);
-    }
 }
 
 std::vector<double> take_free_numbers(Lines& lines, const Announcement& announced)
@@ -162,15 +187,19 @@ std::string_view column_of(std::string_view line, std::size_t width, std::size_t
     return trimmed(line.substr(std::min(index * width, line.size()), width));
 }
 
-std::vector<double> take_columns(Lines& lines, const Columns& columns,
-                                 const Announcement& announced)
+namespace {
+
+/// Takes the announced columns, `take(lines, word)` for each.
+template <class Take>
+void take_each_column(Lines& lines, const Columns& columns, const Announcement& announced,
+                      const Take& take)
 {
-    std::vector<double> values;
-    while (values.size() < announced.count) {
+    std::size_t taken = 0;
+    while (taken < announced.count) {
         if (!lines.next()) {
             lines.refuse("the file ends after {} of the {} values of {} that line {} announces. "
                          "Give the complete file.",
-                         values.size(), announced.count, announced.name, announced.line);
+                         taken, announced.count, announced.name, announced.line);
         }
         if (trimmed(lines.line()).empty()) {
             continue;
@@ -178,7 +207,7 @@ std::vector<double> take_columns(Lines& lines, const Columns& columns,
         const std::string_view line =
             lines.line().substr(0, lines.line().find_last_not_of(" \t") + 1);
         const std::size_t found = (line.size() + columns.width - 1) / columns.width;
-        const std::size_t expected = std::min(columns.per_line, announced.count - values.size());
+        const std::size_t expected = std::min(columns.per_line, announced.count - taken);
         if (found != expected) {
             lines.refuse(
                 "the line has {} {} of {} characters, but must have {}: line {} announces {} "
@@ -192,9 +221,35 @@ std::vector<double> take_columns(Lines& lines, const Columns& columns,
                              "as it was published.",
                              i + 1, columns.width, quoted_bytes(column_of(line, columns.width, i)));
             }
-            values.push_back(number_of(lines, column_of(line, columns.width, i)));
+            take(lines, column_of(line, columns.width, i));
         }
+        taken += found;
     }
+}
+
+} // namespace
+
+std::vector<Printed> take_printed(Lines& lines, const Columns& columns,
+                                  const Announcement& announced)
+{
+    constexpr std::size_t most_kept = 1000;
+    std::vector<Printed> numbers;
+    take_each_column(lines, columns, announced, [&](const Lines& line, std::string_view word) {
+        number_of(line, word);
+        if (numbers.size() < most_kept) {
+            numbers.push_back({line, word});
+        }
+    });
+    return numbers;
+}
+
+std::vector<double> take_columns(Lines& lines, const Columns& columns,
+                                 const Announcement& announced)
+{
+    std::vector<double> values;
+    take_each_column(lines, columns, announced, [&](const Lines& line, std::string_view word) {
+        values.push_back(number_of(line, word));
+    });
     return values;
 }
 

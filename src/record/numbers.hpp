@@ -13,6 +13,13 @@ namespace overturn {
 /// Whether a word is a number, as number_of reads it; it may be infinite, NaN or out of range.
 bool is_number(std::string_view word);
 
+/// Whether a number stands for an unknown one, as -999 in COSMOS and CSMIP, and -32768 and 1.7e38
+/// in SMC do.
+bool is_mark_of_unknown(double number);
+
+/// Half a unit of the last digit of a number: 0.005 for 163.82, 500 for 1.63E+05.
+double rounding_of(std::string_view number);
+
 /// Converts a word to a number, correctly rounded. The syntax is that of C, or of Fortran with the
 /// exponent letter D and without leading zeros (-.5D-01). Refuses other words, and numbers that are
 /// not finite or beyond double precision.
@@ -26,20 +33,8 @@ std::size_t count_of(const Lines& lines, std::string_view word, std::string_view
 /// A time step above 0 [s]. Refuses other words.
 double time_step_of(const Lines& lines, std::string_view word);
 
-/// A number of samples per second whose inverse is finite. Refuses other words, and 1.7e38 and
-/// more, which stand for unknown numbers.
+/// A number of samples per second whose inverse is finite. Refuses other words.
 double sampling_rate_of(const Lines& lines, std::string_view word);
-
-/// Samples at even times.
-struct Sampling {
-    std::size_t count;
-    double time_step; ///< [s]
-};
-
-/// Refuses a duration, stated in the current line, that contradicts the number of samples and the
-/// time step. rounding: of the stated duration [s].
-void expect_duration(const Lines& lines, double stated, const Sampling& sampling,
-                     double rounding = 0);
 
 /// The numbers of a header that announce the samples, for messages.
 struct Announcement {
@@ -59,8 +54,19 @@ struct Columns {
     std::optional<std::size_t> decimals = {}; ///< if known; tells numbers that touch from cut ones
 };
 
+/// A number of a header, as it is printed.
+struct Printed {
+    Lines lines; ///< at its line
+    std::string_view word;
+};
+
 /// The announced numbers, from the next lines that are not blank. Refuses lines with more or fewer
-/// numbers, and numbers that continue beyond their column.
+/// numbers, numbers that continue beyond their column, and what is not a number. Keeps the first
+/// 1000, which is more than any header needs.
+std::vector<Printed> take_printed(Lines& lines, const Columns& columns,
+                                  const Announcement& announced);
+
+/// The same, converted.
 std::vector<double> take_columns(Lines& lines, const Columns& columns,
                                  const Announcement& announced);
 

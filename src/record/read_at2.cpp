@@ -1,5 +1,6 @@
 #include "formats.hpp"
 #include "numbers.hpp"
+#include "stated_numbers.hpp"
 #include "stated_unit.hpp"
 
 #include <fmt/ranges.h>
@@ -18,6 +19,21 @@ constexpr std::size_t title_line = 3; // states the kind of data and their unit
 bool is_seconds(std::string_view word)
 {
     return is_one_of(lower(word), {"s", "sec", "sec.", "secs", "second", "seconds"});
+}
+
+/// What line 4 states.
+struct Sampling {
+    std::size_t count;
+    double time_step;          ///< [s]
+    double rounding;           ///< of the time step [s]
+    std::string_view duration; ///< [s], as printed; empty if it is not stated
+};
+
+/// A number and its unit, as in .01SEC, without the unit.
+std::string_view without_seconds(std::string_view word)
+{
+    const std::size_t unit = std::min(word.find_first_of("sS"), word.size());
+    return is_seconds(word.substr(unit)) ? word.substr(0, unit) : word;
 }
 
 /// New files: `NPTS=  4000, DT= .01000 SEC`, perhaps with `DURATION= 40 SEC`. Old ones: `7997
@@ -45,11 +61,11 @@ Sampling read_sampling(const Lines& lines)
     if (!values.contains("npts") || !values.contains("dt")) {
         refuse();
     }
-    std::string_view step = values["dt"];
-    const std::size_t unit = std::min(step.find_first_of("sS"), step.size()); // as in .01SEC
-    step.remove_suffix(is_seconds(step.substr(unit)) ? step.size() - unit : 0);
+    const std::string_view step = without_seconds(values["dt"]);
     return {.count = count_of(lines, values["npts"], "NPTS"),
-            .time_step = time_step_of(lines, step)};
+            .time_step = time_step_of(lines, step),
+            .rounding = rounding_of(step),
+            .duration = without_seconds(values["duration"])};
 }
 
 void expect_acceleration(const Lines& title)
@@ -102,7 +118,8 @@ RecordFile read_at2(Lines lines, const RecordOptions& options)
     lines = ahead_by(lines, header_lines);
     const Lines title = ahead_by(before, title_line);
     expect_acceleration(title);
-    const Sampling sampling = read_sampling(lines);
+    const Lines times = lines;
+    const Sampling sampling = read_sampling(times);
     const auto stated = unit_of_header(before);
     if (!stated && !options.unit) {
         title.refuse(
@@ -119,6 +136,13 @@ RecordFile read_at2(Lines lines, const RecordOptions& options)
         .unit = stated ? *stated : *options.unit,
         .time_step = sampling.time_step,
         .header = kept_lines(before, header_lines)};
+    component.remarks = compare({{Stated::duration, times, "DURATION", sampling.duration},
+                                 peak_after(title, "peak", "the peak")},
+                                {.lines = times,
+                                 .values = component.acceleration,
+                                 .unit = component.unit,
+                                 .time_step = sampling.time_step,
+                                 .rounding = sampling.rounding});
     return {.format = "AT2", .components = {std::move(component)}, .has_given_unit = !stated};
 }
 

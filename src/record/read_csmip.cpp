@@ -1,7 +1,11 @@
 #include "channels.hpp"
 #include "formats.hpp"
 #include "numbers.hpp"
+#include "stated_numbers.hpp"
 #include "stated_unit.hpp"
+
+#include <utility>
+#include <vector>
 
 namespace overturn {
 
@@ -20,8 +24,8 @@ AccelerationUnit unit_of(const Lines& lines)
     return unit_of_samples(lines, name.empty() ? text_after(lines.line(), " in ") : name);
 }
 
-/// The time step in the line before the accelerations. Refuses another one in the header.
-double step_of_channel(Lines header, const Lines& announcing)
+/// The time step in the line before the accelerations, as printed.
+std::string_view step_of(const Lines& announcing)
 {
     const std::string_view after =
         trimmed(announcing.line().substr(place_after(announcing.line(), marks_values)));
@@ -32,18 +36,49 @@ double step_of_channel(Lines header, const Lines& announcing)
                           "sec. Correct it.",
                           quoted_bytes(step), quoted_bytes(unit));
     }
-    const double time_step = time_step_of(announcing, step);
-    while (header.number() < announcing.number() && header.next()) {
-        const std::size_t place = place_after(header.line(), "equally-spaced intervals of");
-        const std::string_view other =
-            place == step.npos ? step : first_word(header.line().substr(place));
-        if (number_of(header, other) != time_step) {
-            header.refuse("the time step {} s contradicts that of line {}, {} s. Correct one of "
-                          "them.",
-                          other, announcing.number(), step);
+    return step;
+}
+
+/// The numbers of the lines of text, which may be missing.
+void add_numbers_of_text(Lines header, const Lines& announcing, std::vector<StatedNumber>& stated)
+{
+    while (header.next() && header.number() < announcing.number()) {
+        const std::string_view line = header.line();
+        if (contains(line, "points of instrument-")) {
+            stated.push_back({Stated::count, header, "the number of points", first_word(line)});
+        }
+        stated.push_back(
+            {Stated::duration, header, "the record length", word_after(line, "Record length")});
+        stated.push_back({Stated::time_step, header, "the interval",
+                          word_after(line, "equally-spaced intervals of")});
+        if (contains(line, "Peak acceleration")) {
+            stated.push_back(peak_after(header, "Peak acceleration", "the peak"));
+            stated.push_back(
+                {Stated::time_of_peak, header, "the time of the peak", word_after(line, " at ")});
         }
     }
-    return time_step;
+}
+
+/// Those of the integers and real numbers between text and samples: 25 lines of text, 7 of integers
+/// in columns of 5, and 13 of real numbers in columns of 10. Nothing of a shorter header.
+void add_numbers_of_columns(const Lines& header, const Lines& announcing,
+                            std::vector<StatedNumber>& stated)
+{
+    constexpr std::size_t lines_of_text = 25, lines_of_integers = 7, header_lines = 45;
+    if (header.number() + header_lines + 1 != announcing.number()) {
+        return;
+    }
+    const auto add = [&](Stated what, std::size_t line, std::size_t width, std::size_t column,
+                         std::string_view name, const std::optional<AccelerationUnit>& unit = {}) {
+        const Lines at = ahead_by(header, lines_of_text + line);
+        stated.push_back({what, at, name, column_of(at.line(), width, column), unit});
+    };
+    constexpr std::size_t reals = lines_of_integers;
+    add(Stated::count, 4, 5, 4, "integer 53, the number of points,");
+    add(Stated::duration, reals + 8, 10, 3, "real 60, the record length,");
+    add(Stated::time_step, reals + 8, 10, 4, "real 61, the interval,");
+    add(Stated::peak, reals + 9, 10, 1, "real 66, the peak,", AccelerationUnit::cm_per_s2);
+    add(Stated::time_of_peak, reals + 9, 10, 0, "real 65, the time of the peak,");
 }
 
 RecordComponent take_channel(Lines& lines)
@@ -59,11 +94,22 @@ RecordComponent take_channel(Lines& lines)
         refuse_motion(lines);
     }
     const Lines announcing = lines;
-    RecordComponent component{.name = channel_name(before, announcing.number()),
+    const std::string_view step = step_of(announcing);
+    ChannelName name = channel_name(before, announcing.number());
+    RecordComponent component{.name = std::move(name.direction),
+                              .place = std::move(name.place),
                               .acceleration = take_announced(lines, "acceleration", usual_columns),
                               .unit = unit_of(announcing),
-                              .time_step = step_of_channel(before, announcing),
+                              .time_step = time_step_of(announcing, step),
                               .header = kept_lines(before, announcing.number())};
+    std::vector<StatedNumber> stated;
+    add_numbers_of_text(before, announcing, stated);
+    add_numbers_of_columns(before, announcing, stated);
+    component.remarks = compare(stated, {.lines = announcing,
+                                         .values = component.acceleration,
+                                         .unit = component.unit,
+                                         .time_step = component.time_step,
+                                         .rounding = rounding_of(step)});
     for (Lines ahead = lines; next_text(ahead) && contains(ahead.line(), marks_values);) {
         take_announced(ahead, "velocity or displacement", usual_columns);
         lines = ahead;

@@ -1,6 +1,7 @@
 #include "formats.hpp"
 #include "keyed_header.hpp"
 #include "numbers.hpp"
+#include "stated_numbers.hpp"
 #include "stated_unit.hpp"
 
 #include <utility>
@@ -16,6 +17,26 @@ bool is_uncorrected(const KeyedHeader& header)
     const std::string how = processing ? lower(processing->value) : "";
     return how.empty() || how == "none" || how == "no" || contains(how, "unprocessed") ||
            contains(how, "uncorrected");
+}
+
+/// `PGA_CM/S^2: 0.300022`, DURATION_S and TIME_PGA_S, if the header states them
+std::vector<StatedNumber> stated_numbers(const KeyedHeader& header)
+{
+    std::vector<StatedNumber> stated;
+    if (const auto duration = header.find("DURATION_S:")) {
+        stated.push_back({Stated::duration, duration->lines, "DURATION_S", duration->value});
+    }
+    if (const auto peak = header.find("PGA_")) {
+        const std::size_t colon = std::min(peak->value.find(':'), peak->value.size());
+        if (const auto unit = unit_named(trimmed(peak->value.substr(0, colon)))) {
+            stated.push_back(
+                {Stated::peak, peak->lines, "PGA", word_after(peak->value, ":"), unit});
+        }
+    }
+    if (const auto time = header.find("TIME_PGA_S:")) {
+        stated.push_back({Stated::time_of_peak, time->lines, "TIME_PGA_S", time->value});
+    }
+    return stated;
 }
 
 } // namespace
@@ -34,10 +55,6 @@ RecordFile read_esm(Lines lines, const RecordOptions&)
                                  .line = count.lines.number()};
     const KeyedHeader::Entry step = header.required("SAMPLING_INTERVAL_S:");
     const double time_step = time_step_of(step.lines, step.value);
-    if (const auto duration = header.find("DURATION_S:"); duration && !duration->value.empty()) {
-        expect_duration(duration->lines, number_of(duration->lines, duration->value),
-                        {announced.count, time_step});
-    }
     const auto stream = header.find("STREAM:");
     const bool is_raw = is_uncorrected(header);
     RecordComponent component{.name = std::string(stream ? stream->value : ""),
@@ -46,6 +63,12 @@ RecordFile read_esm(Lines lines, const RecordOptions&)
                               .time_step = time_step,
                               .is_uncorrected = is_raw,
                               .header = header.kept()};
+    component.remarks = compare(stated_numbers(header), {.lines = lines,
+                                                         .values = component.acceleration,
+                                                         .unit = unit,
+                                                         .time_step = time_step,
+                                                         .rounding = rounding_of(step.value),
+                                                         .may_have_offset = is_raw});
     return {.format = "ESM", .components = {std::move(component)}};
 }
 

@@ -1,6 +1,8 @@
 #include "formats.hpp"
 #include "keyed_header.hpp"
 #include "numbers.hpp"
+#include "stated_numbers.hpp"
+#include "stated_unit.hpp"
 
 #include <array>
 #include <cmath>
@@ -60,6 +62,19 @@ ScaleFactor scale_factor(const KeyedHeader::Entry& entry)
     return factor;
 }
 
+/// `Max. Acc. (gal)   6.847`, if the header states it in a unit that is understood
+std::vector<StatedNumber> stated_peak(const KeyedHeader& header)
+{
+    const auto peak = header.find("Max. Acc.");
+    const std::string_view text = peak ? peak->value : "";
+    const std::size_t end = std::min(text.find(')'), text.size());
+    const auto unit = unit_named(trimmed(text.substr(0, end).substr(text.find('(') + 1)));
+    if (!unit) {
+        return {};
+    }
+    return {{Stated::peak, peak->lines, "Max. Acc.", word_after(text, ")"), unit}};
+}
+
 } // namespace
 
 RecordFile read_knet(Lines lines, const RecordOptions&)
@@ -83,6 +98,11 @@ RecordFile read_knet(Lines lines, const RecordOptions&)
         .time_step = 1 / rate,
         .is_uncorrected = true,
         .header = header.kept()};
+    component.remarks = compare(stated_peak(header), {.lines = lines,
+                                                      .values = component.acceleration,
+                                                      .unit = component.unit,
+                                                      .time_step = component.time_step,
+                                                      .rounding = 0});
     return {.format = of_kiknet ? "KiK-net" : "K-NET", .components = {std::move(component)}};
 }
 

@@ -8,6 +8,8 @@
 #include "numbers.hpp"
 #include "stated_unit.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -236,6 +238,15 @@ void expect_no_options(const RecordFile& file, const RecordOptions& options, con
     }
 }
 
+/// `1 ("360 Deg", Roof: SW)`, or `1` if the component has no name.
+std::string component_text(const RecordFile& content, const RecordComponent& component)
+{
+    std::string text = component.name.empty() ? "" : in_quotes(component.name);
+    text += component.place.empty() ? "" : (text.empty() ? "" : ", ") + component.place;
+    return fmt::format("{}{}", &component - content.components.data() + 1,
+                       text.empty() ? "" : " (" + text + ")");
+}
+
 constexpr TextFileKind record_file{"a record", largest_record_file,
                                    "Give the path of a recorded motion.",
                                    "Give one record per file."};
@@ -253,6 +264,31 @@ std::vector<double> over_gravity(const RecordComponent& component, double gravit
     return values;
 }
 
+ChosenComponent chosen_component(const RecordFile& content, const ComponentChoice& choice,
+                                 const std::string& file)
+{
+    std::vector<const RecordComponent*> meant;
+    std::vector<std::string> all;
+    for (const RecordComponent& component : content.components) {
+        const auto* const name = std::get_if<std::string>(&choice);
+        all.push_back(component_text(content, component));
+        if (name != nullptr ? *name == component.name
+                            : std::get<std::int64_t>(choice) == std::int64_t(all.size())) {
+            meant.push_back(&component);
+        }
+    }
+    if (meant.size() == 1) {
+        return {meant.front(), false, ""};
+    }
+    const bool is_ambiguous = !meant.empty();
+    return {nullptr, is_ambiguous,
+            fmt::format("is {} of {}. It has the components {}.{}",
+                        is_ambiguous ? fmt::format("the name of {} components", meant.size())
+                                     : std::string("not a component"),
+                        in_quotes(file), fmt::join(all, ", "),
+                        is_ambiguous ? " Give the number of one." : "")};
+}
+
 RecordFile parse_record(std::string_view text, const std::string& name,
                         const RecordOptions& options)
 {
@@ -265,6 +301,7 @@ RecordFile parse_record(std::string_view text, const std::string& name,
     RecordFile file = read_known_format(lines, options);
     for (RecordComponent& component : file.components) {
         component.name = as_utf8(component.name);
+        component.place = as_utf8(component.place);
     }
     if (file.format != "text") { // which states neither unit nor time step
         expect_no_options(file, options, lines);

@@ -1,5 +1,6 @@
 #include "formats.hpp"
 #include "numbers.hpp"
+#include "stated_numbers.hpp"
 
 #include <string>
 #include <utility>
@@ -15,6 +16,68 @@ std::string component_name(std::string_view station)
 {
     const std::size_t place = place_after(station, "component=");
     return std::string(place == station.npos ? "" : trimmed(station.substr(place)));
+}
+
+/// Samples per second. It is unknown if the samples are not at even times.
+double samples_per_second(const Lines& lines)
+{
+    const std::string_view word = column_of(lines.line(), 15, 1);
+    if (is_number(word) && is_mark_of_unknown(number_of(lines, word))) {
+        lines.refuse("the number of samples per second is {}, which stands for an unknown number: "
+                     "the samples are not at even times, but pairs of times and accelerations. "
+                     "Interpolate the accelerations at even times, and give both as text.",
+                     word);
+    }
+    return sampling_rate_of(lines, word);
+}
+
+/// Whether every other sample, beginning with this one, is at least as large as the one before it.
+bool do_not_decrease(const std::vector<double>& samples, std::size_t first)
+{
+    for (std::size_t i = first + 2; i < samples.size(); i += 2) {
+        if (samples[i] < samples[i - 2]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// Refuses samples of which every other one is a time, which may be equal in the printed digits.
+void expect_no_times(const Lines& rates, const std::vector<double>& samples)
+{
+    constexpr std::size_t least_samples = 8; // of fewer, accelerations may increase
+    if (samples.size() < least_samples || samples.size() % 2 != 0) {
+        return;
+    }
+    const double first = samples.front();
+    const double last = samples[samples.size() - 2];
+    if (0 <= first && first < last && do_not_decrease(samples, 0) && !do_not_decrease(samples, 1)) {
+        rates.refuse(
+            "the header states {} samples per second, but every other sample is at least "
+            "as large as the one before it, from {} to {}: the samples are pairs of times "
+            "and accelerations. Interpolate the accelerations at even times, and give both "
+            "as text.",
+            column_of(rates.line(), 15, 1), first, last);
+    }
+}
+
+/// Real numbers 29 to 32, and `epicentral dist =     63.0       pk     =    272.3`. before: the
+/// header
+std::vector<StatedNumber> stated_numbers(const Lines& before)
+{
+    const Lines peak = ahead_by(before, 7), highest = ahead_by(before, 23),
+                lowest = ahead_by(before, 24);
+    const std::size_t place = std::min(place_after(peak.line(), " pk "), peak.line().size());
+    const auto column = [](const Lines& lines, std::size_t index) {
+        return column_of(lines.line(), 15, index);
+    };
+    return {{Stated::peak, peak, "the peak", word_after(peak.line().substr(place), "=")},
+            {Stated::highest, highest, "real number 30, the maximum,", column(highest, 4)},
+            {Stated::lowest, lowest, "real number 32, the minimum,", column(lowest, 1)},
+            {Stated::time_of_highest, highest, "real number 29, the time of the maximum,",
+             column(highest, 3)},
+            {Stated::time_of_lowest, lowest, "real number 31, the time of the minimum,",
+             column(lowest, 0)}};
 }
 
 } // namespace
@@ -33,7 +96,7 @@ RecordFile read_smc(Lines lines, const RecordOptions&)
                                  .name = "the header",
                                  .line = counts.number()};
     const Lines rates = ahead_by(before, 18);
-    const double rate = sampling_rate_of(rates, column_of(rates.line(), 15, 1));
+    const double rate = samples_per_second(rates);
     for (Lines ahead = lines; ahead.next() && ahead.line().starts_with('|');) { // a comment
         lines = ahead;
     }
@@ -44,6 +107,15 @@ RecordFile read_smc(Lines lines, const RecordOptions&)
                               .time_step = 1 / rate,
                               .is_uncorrected = contains(kind.line(), "UNCORRECTED"),
                               .header = kept_lines(before, last_of_header)};
+    expect_no_times(rates, component.acceleration);
+    component.remarks =
+        compare(stated_numbers(before),
+                {.lines = before,
+                 .values = component.acceleration,
+                 .unit = component.unit,
+                 .time_step = component.time_step,
+                 .rounding = rounding_of(column_of(rates.line(), 15, 1)) / (rate * rate),
+                 .may_have_offset = component.is_uncorrected});
     return {.format = "SMC", .components = {std::move(component)}};
 }
 

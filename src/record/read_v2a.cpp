@@ -1,6 +1,7 @@
 #include "channels.hpp"
 #include "formats.hpp"
 #include "numbers.hpp"
+#include "stated_numbers.hpp"
 
 #include <string>
 
@@ -31,6 +32,37 @@ void expect_unit(const Lines& lines)
     }
 }
 
+/// The numbers of `Number of points  8192    Duration 163.82 sec`, `Instrument corrected data at
+/// 0.020 sec intervals`, `Acceleration:  peak  -9733.1 mm/s/s at  44.88 sec     rms    719.0
+/// mm/s/s`, and of columns. before: the header
+std::vector<StatedNumber> stated_numbers(const Lines& before)
+{
+    const Lines length = ahead_by(before, 10), interval = ahead_by(before, 11),
+                peak = ahead_by(before, 14), times = ahead_by(before, 23),
+                peaks = ahead_by(before, 24);
+    const auto column = [](const Lines& lines, std::size_t index) {
+        return column_of(lines.line(), columns.width, index);
+    };
+    const auto time_of_peak = [&](const Lines& lines, std::string_view name,
+                                  std::string_view word) {
+        StatedNumber stated{Stated::time_of_peak, lines, name, word};
+        const std::string_view before_trigger = column(times, 1);
+        stated.start = is_number(before_trigger) ? -number_of(times, before_trigger) : 0;
+        return stated;
+    };
+    StatedNumber mean = peak_after(peak, "rms", "the rms");
+    mean.what = Stated::root_mean_square;
+    return {{Stated::count, length, "the number of points", word_after(length.line(), "points")},
+            {Stated::duration, length, "the duration", word_after(length.line(), "duration")},
+            {Stated::duration, times, "the duration, column 4,", column(times, 3)},
+            {Stated::time_step, interval, "the interval", word_after(interval.line(), "data at")},
+            peak_after(peak, "peak", "the peak"),
+            mean,
+            {Stated::peak, peaks, "the peak, column 6,", column(peaks, 5)},
+            time_of_peak(peak, "the time of the peak", word_after(peak.line(), " at ")),
+            time_of_peak(peaks, "the time of the peak, column 7,", column(peaks, 6))};
+}
+
 RecordComponent take_component(Lines& lines)
 {
     const Lines before = lines;
@@ -52,6 +84,13 @@ RecordComponent take_component(Lines& lines)
         return take_columns(lines, columns, {count, name, counts.number()});
     };
     component.acceleration = take(3, "acceleration", 1);
+    component.remarks =
+        compare(stated_numbers(before),
+                {.lines = before,
+                 .values = component.acceleration,
+                 .unit = component.unit,
+                 .time_step = component.time_step,
+                 .rounding = rounding_of(column_of(times.line(), columns.width, 5))});
     take(4, "velocity", 0); // which may be missing, like the displacement
     take(5, "displacement", 0);
     return component;

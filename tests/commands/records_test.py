@@ -323,6 +323,13 @@ class ABadRecord(ScratchWithRecords):
         self.refused("zero at all times", scene__record="zero.txt", scene__units="g",
                      scene__time_step="0.01")
 
+    def test_is_warned_of_if_its_header_differs_by_little(self):
+        (self.folder / "one.AT2").write_text("PEER\nA, 1\nIN UNITS OF G, PEAK = 0.306 G\nNPTS= 2, DT= .01\n.1 .3\n")
+        remark = "one.AT2:3: the peak is 0.306 g, but that of the samples is 0.3 g"
+        self.assert_exit(self.overturn("check", "job.toml"), 0, f"warning: {remark}.")
+        result = self.overturn("topple", "--width=0.5", "--height=2", "--record=one.AT2", "--json")
+        self.assertIn(remark, json.loads(result.stdout)["warnings"])
+
     def test_needs_an_existing_component_and_an_equal_vertical(self):
         self.refused("scene.component = 2 is not a component", "1", scene__component="2")
         self.scale_record("slow.AT2", 1, "0.02")

@@ -40,7 +40,7 @@ protected:
                     line == 1    ? "Corrected accelerogram"
                     : line == 10 ? "Number of points 2"
                     : line == 13 ? "Component " + names[i]
-                    : line == 14 ? "Acceleration: peak 5 mm/s/s"
+                    : line == 14 ? fmt::format("Acceleration: peak {} mm/s/s", i + 1)
                     : line == 20 ? fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}", 0, 0, 0, 2, 0, 0)
                     : line == 23 ? fmt::format("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}", 0, 0, 0, 0, 0, 0.1)
                                  : "";
@@ -112,6 +112,34 @@ TEST_F(Motions, AreNamedByTheirFilesAndThoseOfOneFileAlsoByTheirComponents)
     const Job suite =
         plane("record = ['a.V2A', 'a.V2A', 'b.AT2', 'a.V2A']\ncomponent = [1, 2, 1, 3]");
     EXPECT_EQ(names_of(suite), names);
+}
+
+TEST_F(Motions, AreRefusedIfTheyAreNamedLikeAnotherComponentOfTheFile)
+{
+    write_components("a.V2A", {"360", "Up", "360"});
+    for (const char* key : {"component", "vertical", "second_component"}) {
+        const std::string scene = fmt::format("record = 'a.V2A'\n{} = '360'", key);
+        EXPECT_THAT(refusal(exit_code::job, [&] { plane(scene); }),
+                    HasSubstr(fmt::format("scene.{} = 360 is the name of 2 components of "
+                                          "\"a.V2A\". It has the components 1 (\"360\"), 2 "
+                                          "(\"Up\"), 3 (\"360\"). Give the number of one.",
+                                          key)));
+    }
+    EXPECT_EQ(plane("record = 'a.V2A'\ncomponent = 3\nvertical = 'Up'").motions.size(), 1);
+}
+
+TEST_F(Motions, HaveTheRemarksOnAllTheirComponents)
+{
+    const auto write_with_peak = [&](const std::string& file, double peak) {
+        write(file, fmt::format("PEER\nA, 1\nIN UNITS OF G, PEAK = {} G\nNPTS= 3, DT= .1\n0 1 {}\n",
+                                peak, file == "a.AT2" ? 0 : 0.5));
+    };
+    write_with_peak("a.AT2", 1.020);
+    write_with_peak("b.AT2", 0.970);
+    EXPECT_THAT(plane("record = 'a.AT2'\nvertical = 'b.AT2'").motions.at(0).remarks,
+                testing::ElementsAre(
+                    HasSubstr("a.AT2:3: the peak is 1.02 g, but that of the samples is 1 g"),
+                    HasSubstr("b.AT2:3: the peak is 0.97 g, but that of the samples is 1 g")));
 }
 
 TEST_F(Motions, OfOneComponentAreNamedByTheirVerticalMotions)

@@ -3,6 +3,9 @@
 import pathlib
 import tempfile
 import unittest
+import warnings
+
+import numpy as np
 
 import overturn
 
@@ -29,6 +32,38 @@ class ARecord(unittest.TestCase):
         self.assertEqual((record.time_step, record.header), (0.5, ["# a comment"]))
         on_the_moon = overturn.read_record(self.text_file("0\n1.62\n"), time_step=0.5, units="m/s2", gravity=1.62)
         self.assertEqual(on_the_moon.acceleration.tolist(), [0, 1])
+
+    def v2a_file(self, *names):
+        """A file of components with these names, of two samples each; the peak of the first is 2 % too large."""
+        lines = []
+        for number, name in enumerate(names, 1):
+            header = {1: "Corrected accelerogram", 10: "Number of points 2", 13: f"Component {name}",
+                      14: f"Acceleration: peak {102 if number == 1 else 100 * number}.00 mm/s/s",
+                      20: "       0       0       0       2       0       0",
+                      23: "       0       0       0       0       0     0.1"}
+            lines += [header.get(line, "") for line in range(1, 27)] + [f"       0{100 * number:8}"]
+        return self.text_file("\n".join(lines) + "\n")
+
+    def test_is_chosen_by_a_name_that_no_other_component_has(self):
+        path = self.v2a_file("360", "90", "360")
+        for choice, acceleration in (("90", 200), (2, 200), (1, 100), (np.int64(3), 300)):
+            record = overturn.read_record(path, choice, gravity=0.001)
+            self.assertEqual(record.acceleration.tolist(), [0, acceleration])
+        with self.assertRaisesRegex(ValueError, 'component = 360 is the name of 2 components of .*1 \\("360"\\), 2 '
+                                                '\\("90"\\), .* Give the number of one'):
+            overturn.read_record(path, "360")
+        with self.assertRaisesRegex(ValueError, "component = None is neither"):
+            overturn.read_record(path, None)
+
+    def test_warns_of_a_header_that_differs_by_little(self):
+        path = self.v2a_file("Up", "360")
+        with self.assertWarnsRegex(UserWarning, "record.txt:14: the peak is 102.00 mm/s2, but that of the samples is "
+                                                "100 mm/s2[.]$") as warned:
+            overturn.read_record(path, "Up")
+        self.assertEqual(warned.filename, __file__)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            overturn.read_record(path, "360")
 
     def test_refusals(self):
         path = self.text_file("0\n1\n")

@@ -137,6 +137,37 @@ TEST(Cosmos, GivesCountsWithoutTheirMeanInG)
     }
 }
 
+/// Counts, with more reals.
+std::string counts_with(const std::vector<std::pair<int, std::string>>& reals)
+{
+    Options options = counts;
+    options.reals.insert(options.reals.end(), reals.begin(), reals.end());
+    return channel(options);
+}
+
+TEST(Cosmos, ComparesCountsWithAPeakWithOrWithoutTheirMean)
+{
+    for (const char* peak : {"109", "-109", "18", "-18.00"}) { // the mean is 100
+        EXPECT_EQ(component_of(counts_with({{64, peak}})).remarks.size(), 0) << peak;
+    }
+    for (const char* peak : {"120", "98.1", "54.5", "218", "36", "1.835"}) {
+        EXPECT_NE(refusal_of(counts_with({{64, peak}})), "") << peak;
+    }
+}
+
+TEST(Cosmos, ComparesTheSensitivityOfTheSensorWithItsFullScale)
+{
+    for (const auto& [volts, g] : std::vector<std::pair<const char*, const char*>>{
+             {"2.5", "2.0"}, {"1.25", "1"}, {"5.0", "4.0"}, {"2.5", "-999"}, {"-999", "2.0"}}) {
+        EXPECT_EQ(refusal_of(counts_with({{43, volts}, {44, g}})), "") << volts << " V, " << g;
+    }
+    EXPECT_EQ(
+        refusal_of(counts_with({{43, "2.5"}, {44, "2.2"}})),
+        "a.txt:17: the sensitivity of the sensor, real 42 of the header, is 1.25 V/g, but its "
+        "full scale, reals 43 and 44, is 2.5 V at 2.2 g. Give the file as it was published, or "
+        "correct the wrong one.");
+}
+
 TEST(Cosmos, MayHaveAnyFormatOfTheValues)
 {
     const std::vector<std::pair<const char*, const char*>> formats{
@@ -216,13 +247,13 @@ TEST(Cosmos, IsRefusedWithFileLineAndReason)
             "usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with their "
             "unit."},
         {"ContradictoryTimeSteps", with_value({}, true, 62, "5.0"),
-            "a.txt:17: the duration 0.2 s is not that of 10 samples at 0.005 s, 0.05 s. Correct it, or give the file "
-            "as it was published."},
+            "a.txt:28: real 63, the length of the series, is 0.2 s, but 10 samples at 0.005 s are 0.05 s. Give the file "
+            "as it was published, or correct the wrong one."},
         {"AContradictoryDuration", with(channel({.reals = {{34, "1.0"}}}), "approx    0 secs", "approx   50 secs"),
-            "a.txt:38: the duration 50 s is not that of 10 samples at 1 s, 10 s. Correct it, or give the file as it "
-            "was published."},
+            "a.txt:38: the approximate duration is 50 s, but 10 samples at 1 s are 10 s. Give the file as it was "
+            "published, or correct the wrong one."},
         {"AnUnknownTimeStep", channel({.reals = {}}),
-            "a.txt:17: the time step, real 62 of the header in ms, is unknown or 0. Correct it."},
+            "a.txt:17: the time step, real 62 of the header in ms, is unknown or 0. Give a file that states it."},
         {"CountsOfUnknownSensitivity", with_value(counts, true, 42, "-999"),
             "a.txt:17: the samples are counts, but reals 22 (microvolts per count), 42 (volts per g) and 47 (gain, "
             "must be 1) of the header are 0.5, -999 and 1. Give the file of volume 1 or 2, in cm/sec2."},

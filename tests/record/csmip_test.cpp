@@ -55,6 +55,29 @@ TEST(Csmip, HasAComponentForEachChannel)
     }
 }
 
+// clang-format off
+TEST(Csmip, NamesAChannelByItsDirectionAndNotByItsPlace)
+{
+    struct Line { const char* text; const char* direction; const char* place; };
+    for (const auto& [text, direction, place] : std::vector<Line>{
+             {"Chan  1:  90 Deg", "90 Deg", ""}, {"Chan  1: 360 Deg      Location: Roof: SW", "360 Deg", "Roof: SW"},
+             {"Chan  2: Up   Ground", "Up", "Ground"}, {"CHAN  1:  90 DEG", "90 DEG", ""},
+             {"Chan 12:  H1  ", "H1", ""}, {"Chan  3: 360 Deg Location: Ground Floor", "360 Deg", "Ground Floor"},
+             {"Sta Chan  1: 340 deg (Rcrdr Chan  1) Location: roof", "340 deg", "roof"},
+             {"Sta Cha:  1: 340 deg (Rcrdr Chan  1) Location: a: b", "340 deg", "a: b"},
+             {"Sta Chan   ?:Other   (Rcrdr Chan  ?) Location:", "Other", ""}, {"Chan  4: N 45 E   2nd floor: N", "N 45 E", "2nd floor: N"},
+             {"Chan  5: 90 Deg (Rcrdr: 7) Location: x", "90 Deg", "x"}, {"Chan  6", "", ""},
+             {"Chan  7: -90 Deg\tDeck", "-90 Deg", "Deck"}, {"Chan  8: Vert   Bent 5: top", "Vert", "Bent 5: top"},
+             {"Chan: 9: Up", "Up", ""}, {"chan  1: up location: 1st: N: E", "up", "1st: N: E"},
+             {"Chan. 2: Up", "Up", ""}, {"Chan 10:", "", ""}, {"Chan 11: 180 Deg   (Roof: W)", "180 Deg", "(Roof: W)"},
+             {"Chan A: S16E", "S16E", ""}, {"Chan  2:Radial  Dam: crest", "Radial", "Dam: crest"}}) {
+        const RecordComponent component = component_of(with(channel("90 Deg"), "Chan  1:  90 Deg          \n", std::string(text) + "\n"));
+        EXPECT_EQ(component.name, direction) << text;
+        EXPECT_EQ(component.place, place) << text;
+    }
+}
+// clang-format on
+
 TEST(Csmip, MayHaveAnyNumberOfChannels)
 {
     EXPECT_EQ(component_of(channel("90 Deg")).name, "90 Deg");
@@ -68,6 +91,7 @@ TEST(Csmip, MayBeInCapitalsWithoutFormatOfTheValues)
     text = with(text, accelerations,
                 "    -3.038     -.787     2.288     4.106     4.898     3.777      .630    "
                 "-1.080\n    -2.112    -5.659\n");
+    text = with(text, "8.000    cm/sec/sec", "-5.659   cm/sec/sec");
     for (char& letter : text) {
         letter = 'a' <= letter && letter <= 'z' ? char(letter - 'a' + 'A') : letter;
     }
@@ -80,9 +104,14 @@ TEST(Csmip, MayBeInCapitalsWithoutFormatOfTheValues)
 
 TEST(Csmip, MayHaveOtherUnits)
 {
-    const std::string text = channel("Up");
-    EXPECT_EQ(component_of(with(text, "in cm/sec2.", "in g.")).unit, AccelerationUnit::g);
-    EXPECT_EQ(component_of(with(text, "in cm/sec2.", "in mm/sec/sec.")).unit,
+    const auto unit_of_channel = [](const char* unit, const char* peak) {
+        const std::string text = with(channel("Up"), "in cm/sec2.", unit);
+        return component_of(with(text, "8.000    cm/sec/sec", peak)).unit;
+    };
+    EXPECT_EQ(unit_of_channel("in g.", "8.000    g"), AccelerationUnit::g);
+    EXPECT_EQ(unit_of_channel("in mm/sec/sec.", "8.000    mm/sec/sec"),
+              AccelerationUnit::mm_per_s2);
+    EXPECT_EQ(unit_of_channel("in mm/sec/sec.", " .800    cm/sec/sec"),
               AccelerationUnit::mm_per_s2);
 }
 
@@ -97,14 +126,16 @@ TEST(Csmip, MayHaveAnyFormatOfTheValues)
                       "6.0000E+00\n  7.0000E+00\n  8.0000E+00\n  9.0000E+00\n  1.0500E+01\n"}};
     for (const auto& [format, data] : formats) {
         const std::string text = with(with(channel("Up"), "(8f10.6)", format), accelerations, data);
-        EXPECT_EQ(component_of(text).acceleration, (Values{1.5, 2, -3.5, 4, 5, 6, 7, 8, 9, 10.5}))
+        EXPECT_EQ(component_of(with(text, "=     8.000", "=    10.500")).acceleration,
+                  (Values{1.5, 2, -3.5, 4, 5, 6, 7, 8, 9, 10.5}))
             << format;
     }
 }
 
 TEST(Csmip, ReadsColumnsThatTouch)
 {
-    const std::string text = with(channel("Up"), "   .250000 -1.500000", "123.250000100.500000");
+    std::string text = with(channel("Up"), "   .250000 -1.500000", "123.250000100.500000");
+    text = with(text, "=     8.000", "=   123.250");
     EXPECT_EQ(component_of(text).acceleration[1], 123.25);
     EXPECT_EQ(component_of(text).acceleration[2], 100.5);
 }
@@ -167,7 +198,8 @@ TEST(Csmip, IsRefusedWithFileLineAndReason)
             "a.txt:12: the time step \"10.\" is followed by \"msec,\", but must be in seconds, as in .010 sec. Correct "
             "it."},
         {"ContradictoryTimeSteps", with(sound, "intervals of    .010", "intervals of    .005"),
-            "a.txt:7: the time step .005 s contradicts that of line 12, .010 s. Correct one of them."},
+            "a.txt:7: the interval is .005 s, but that of the samples is 0.01 s. Give the file as it was published, or "
+            "correct the wrong one."},
         {"ACutNumber", with(sound, "(8f10.6)", "(10f8.6)"),
             "a.txt:13: column 1 of 8 characters ends within a number: \"-.0012\". Give the file as it was published."},
         {"AnUncorrectedRecord", with(sound, "Corrected accelerogram", "Uncorrected accelerogram"),

@@ -1,6 +1,8 @@
 // Files of ESM.
 #include "reading.hpp"
 
+#include <fmt/format.h>
+
 namespace overturn {
 namespace {
 
@@ -27,8 +29,11 @@ TEST(Esm, GivesItsSamplesInTheUnitOfItsHeader)
     ASSERT_EQ(file.components.size(), 1);
     EXPECT_EQ(file.components[0].unit, AccelerationUnit::cm_per_s2);
     EXPECT_EQ(file.components[0].acceleration, (Values{0, -1.5, 0.25, 1}));
-    EXPECT_EQ(component_of(with(sound, "cm/s^2", "m/s^2")).unit, AccelerationUnit::m_per_s2);
-    EXPECT_EQ(component_of(with(sound, "cm/s^2", "g")).unit, AccelerationUnit::g);
+    const std::string peak = "PGA_CM/S^2: -1.500000";
+    EXPECT_EQ(component_of(with(with(sound, "cm/s^2", "m/s^2"), peak, "PGA_CM/S^2: -150")).unit,
+              AccelerationUnit::m_per_s2);
+    EXPECT_EQ(component_of(with(with(sound, "cm/s^2", "g"), peak, "PGA_G: -1.5")).unit,
+              AccelerationUnit::g);
 }
 
 TEST(Esm, HasTheTimeStepAndTheStreamOfItsHeader)
@@ -82,6 +87,46 @@ TEST(Esm, MayLackKeysThatAreNotNeeded)
               4);
 }
 
+std::vector<std::string> remarks_on_peak(const std::string& peak)
+{
+    return component_of(with(sound, "-1.500000\nBASE", peak + "\nBASE")).remarks;
+}
+
+TEST(Esm, RemarksOnAPeakThatDiffersByMoreThanOnePercent)
+{
+    for (const char* peak : {"-1.500000", "1.500000", "1.487", "1.513", "1.5", "2", "0", "-999"}) {
+        EXPECT_EQ(remarks_on_peak(peak), std::vector<std::string>()) << peak; // 2 may be 1.5
+    }
+    for (const char* peak : {"1.470000", "1.53", "1.57"}) {
+        EXPECT_EQ(remarks_on_peak(peak),
+                  std::vector{fmt::format("a.txt:10: PGA is {} cm/s2, but that of the samples is "
+                                          "1.5 cm/s2",
+                                          peak)});
+    }
+}
+
+TEST(Esm, ThatWasNotProcessedMayStateThePeakWithoutTheMean)
+{
+    const std::string raw = with(sound, "manual (Nobody, 2011)", "none");
+    const std::string without_mean = "1.4375"; // -1.5 - (-1.5 + 0.25 + 1) / 4
+    EXPECT_EQ(component_of(with(raw, "-1.500000\nBASE", without_mean + "\nBASE")).remarks.size(),
+              0);
+    EXPECT_EQ(remarks_on_peak(without_mean).size(), 1);
+}
+
+TEST(Esm, RemarksOnATimeOfThePeakIfAnotherNumberConfirmsTheTimeStep)
+{
+    const std::string wrong = with(sound, "USER5: ", "TIME_PGA_S: 0.015");
+    EXPECT_EQ(
+        component_of(wrong).remarks,
+        std::vector<std::string>{"a.txt:14: TIME_PGA_S is 0.015 s, but that of the samples is "
+                                 "0.005 s, at 0.005 s per sample"});
+    EXPECT_EQ(component_of(with(wrong, "0.015", "0.005")).remarks.size(), 0);
+    EXPECT_EQ(refusal_of(with(wrong, "DURATION_S: 0.020\n", "")),
+              "a.txt:13: TIME_PGA_S is 0.015 s, but that of the samples is 0.005 s, at 0.005 s per "
+              "sample. Give the file as it was published, or correct the wrong one.");
+}
+
 // clang-format off
 TEST(Esm, IsRefusedWithFileLineAndReason)
 {
@@ -108,8 +153,16 @@ TEST(Esm, IsRefusedWithFileLineAndReason)
         {"ATimeStepOfZero", with(sound, "0.005000", "0.000000"),
             "a.txt:4: the time step is 0 s, but must be above 0. Correct it."},
         {"AContradictoryTimeStep", with(sound, "0.005000", "0.020000"),
-            "a.txt:6: the duration 0.02 s is not that of 4 samples at 0.02 s, 0.08 s. Correct it, or give the file as "
-            "it was published."},
+            "a.txt:6: DURATION_S is 0.020 s, but 4 samples at 0.02 s are 0.08 s. Give the file as it was published, or "
+            "correct the wrong one."},
+        {"AContradictoryUnit", with(sound, "UNITS: cm/s^2", "UNITS: g"),
+            "a.txt:10: PGA is -1.500000 cm/s2, but that of the samples is 1471 cm/s2. Give the file as it was published, "
+            "or correct the wrong one."},
+        {"AContradictoryPeak", with(sound, "PGA_CM/S^2: -1.500000", "PGA_CM/S^2: -1.60"),
+            "a.txt:10: PGA is -1.60 cm/s2, but that of the samples is 1.5 cm/s2. Give the file as it was published, or "
+            "correct the wrong one."},
+        {"AnUnknownTimeStep", with(sound, "0.005000", "-999"),
+            "a.txt:4: the time step is \"-999\", which stands for an unknown number. Give a file that states it."},
         {"TwoTimeSteps", with(sound, "USER5: ", "SAMPLING_INTERVAL_S: 0.01"),
             "a.txt:14: the header states \"SAMPLING_INTERVAL_S:\" for the second time; the first is line 4. Remove one "
             "of them."},

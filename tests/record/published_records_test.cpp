@@ -115,6 +115,7 @@ TEST(ARecordOfANetwork, HasThePeaksOfItsHeaderInCentimetresPerSecondSquared)
             EXPECT_EQ(component.time_step, expected.time_step) << path;
             EXPECT_EQ(component.acceleration.size(), expected.samples) << path;
             EXPECT_EQ(component.is_uncorrected, expected.is_uncorrected) << path;
+            EXPECT_EQ(component.remarks, std::vector<std::string>()) << path;
             EXPECT_NEAR(std::abs(peak_of(component)), expected.peaks[i],
                         0.51 * expected.last_digit) // rounded
                 << path;

@@ -6,9 +6,12 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
 #include <clocale>
 #include <filesystem>
 #include <locale>
+#include <random>
 
 namespace overturn {
 namespace {
@@ -24,6 +27,51 @@ TEST(UnitNames, AreInTheOrderOfTheUnits)
     EXPECT_EQ(name_of(AccelerationUnit::m_per_s2), "m/s2");
     EXPECT_EQ(name_of(AccelerationUnit::cm_per_s2), "cm/s2");
     EXPECT_EQ(name_of(AccelerationUnit::mm_per_s2), "mm/s2");
+}
+
+/// A file of components with these names.
+RecordFile file_of(const std::vector<std::string>& names)
+{
+    RecordFile file{.format = "CSMIP", .components = {}};
+    for (const std::string& name : names) {
+        file.components.push_back({.name = name, .acceleration = {0}, .header = {}});
+    }
+    return file;
+}
+
+TEST(AComponent, IsChosenByItsNumberOrByANameThatNoOtherOneHas)
+{
+    std::mt19937 random(1);
+    for (int i = 0; i < 50; ++i) {
+        std::vector<std::string> names;
+        for (std::size_t j = 0; j < 1 + random() % 6; ++j) {
+            names.push_back(std::array{"Up", "360 Deg", "90 Deg", ""}[random() % 4]);
+        }
+        const RecordFile file = file_of(names);
+        for (std::size_t j = 0; j < names.size(); ++j) {
+            EXPECT_EQ(chosen_component(file, std::int64_t(j + 1), "a.V2").component,
+                      &file.components[j]);
+            const ChosenComponent named = chosen_component(file, names[j], "a.V2");
+            const bool is_unique = std::ranges::count(names, names[j]) == 1;
+            EXPECT_EQ(named.component, is_unique ? &file.components[j] : nullptr);
+            EXPECT_EQ(named.is_ambiguous, !is_unique);
+        }
+    }
+}
+
+TEST(AComponent, OfANameThatSeveralHaveIsRefusedWithAListOfAll)
+{
+    RecordFile file = file_of({"360 Deg", "Up", "360 Deg", ""});
+    file.components[0].place = "Roof: SW";
+    file.components[3].place = "Ground";
+    const std::string all = "It has the components 1 (\"360 Deg\", Roof: SW), 2 (\"Up\"), 3 (\"360 "
+                            "Deg\"), 4 (Ground).";
+    EXPECT_EQ(chosen_component(file, "360 Deg", "a.V2").refusal,
+              "is the name of 2 components of \"a.V2\". " + all + " Give the number of one.");
+    EXPECT_EQ(chosen_component(file, "90 Deg", "a.V2").refusal,
+              "is not a component of \"a.V2\". " + all);
+    EXPECT_EQ(chosen_component(file, std::int64_t(5), "a.V2").refusal,
+              "is not a component of \"a.V2\". " + all);
 }
 
 TEST(RecordFile, IsReadFromItsPath)

@@ -3,6 +3,10 @@
 
 #include "support/untrapped_floating_point.hpp"
 
+#include <fmt/format.h>
+
+#include <random>
+
 namespace overturn {
 namespace {
 
@@ -96,6 +100,25 @@ TEST(Smc, MayHaveTheLineEndsOfAnySystem)
     }
 }
 
+TEST(Smc, IsRefusedIfItsSamplesArePairsOfTimesAndAccelerations)
+{
+    std::mt19937 random(7);
+    for (int i = 0; i < 20; ++i) {
+        std::string pairs;
+        const std::size_t count = 4 + random() % 9;
+        double time = double(random() % 3) / 100;
+        for (std::size_t j = 0; j < count; ++j) {
+            pairs += fmt::format("{:10.4E}{:11.4E}\n", time, double(random() % 2000) / 10 - 100);
+            time += double(1 + random() % 30) / 1000;
+        }
+        const std::string text =
+            with(with(sound, data, pairs), "        10", fmt::format("{:10}", 2 * count));
+        EXPECT_NE(refusal_of(text).find("the samples are pairs of times and accelerations"),
+                  std::string::npos)
+            << text;
+    }
+}
+
 TEST(Smc, MayEndWithPadding)
 {
     for (const std::string& padding : paddings()) {
@@ -126,20 +149,21 @@ TEST(Smc, IsRefusedWithFileLineAndReason)
         {"AnEarlyEndInTheHeader", sound.substr(0, sound.find("        10")),
             "a.txt:13: the file ends within the header. Give the complete file."},
         {"AnUnknownNumberOfSamples", with(sound, "        10", "    -32768"),
-            "a.txt:14: the number of samples, columns 1 to 10, is \"-32768\", but must be an integer from 1 to "
-            "10000000. Correct it, or give another record."},
+            "a.txt:14: the number of samples, columns 1 to 10, is \"-32768\", which stands for an unknown number. Give a "
+            "file that states it."},
         {"TooManySamples", with(sound, "        10", "2000000000"),
             "a.txt:14: the number of samples, columns 1 to 10, is \"2000000000\", but must be an integer from 1 to "
             "10000000. Correct it, or give another record."},
         {"AnUnknownRate", with(sound, "  0.2000000E+03", "  0.1700000E+39"),
-            "a.txt:18: the number of samples per second is \"0.1700000E+39\", but must be above 0 and below "
-            "1.7e38. Correct it."},
+            "a.txt:18: the number of samples per second is 0.1700000E+39, which stands for an unknown number: the samples "
+            "are not at even times, but pairs of times and accelerations. Interpolate the accelerations at even times, "
+            "and give both as text."},
         {"ARateOfZero", with(sound, "  0.2000000E+03", "  0.0000000E+00"),
-            "a.txt:18: the number of samples per second is \"0.0000000E+00\", but must be above 0 and below "
-            "1.7e38. Correct it."},
+            "a.txt:18: the number of samples per second is \"0.0000000E+00\", but must be above 0, and its "
+            "inverse finite. Correct it."},
         {"ARateWithoutInverse", with(sound, "  0.2000000E+03", " 0.2000000E-320"),
-            "a.txt:18: the number of samples per second is \"0.2000000E-320\", but must be above 0 and below "
-            "1.7e38. Correct it."},
+            "a.txt:18: the number of samples per second is \"0.2000000E-320\", but must be above 0, and its "
+            "inverse finite. Correct it."},
         {"AMissingRate", with(sound, "  0.2000000E+03", "               "),
             "a.txt:18: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
         {"Overflow", with(sound, "-9.7655E-1", "**********"),

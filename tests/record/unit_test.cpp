@@ -42,7 +42,7 @@ const std::vector<Group> groups{
          "ACCELERATION TIME HISTORY, UNITS OF G - CORRECTED", "Acceleration in g", "Acceleration (g)",
          "acceleration [g]", "ACCELERATION IN G'S", "UNITS: G", "Units = g", "ACC. IN G.", "ACCELERATION (G), DT IN SEC",
          "ACCELERATION TIME HISTORY IN FRACTIONS OF G", "ACCELERATION UNITS ARE G", "ACCELERATION IN UNITS OF GRAVITY",
-         "ACCELERATION IN G, PEAK = 343 CM/S/S AT 2.4 SEC"}},
+         "ACCELERATION IN G, PEAK = 981 CM/S/S AT .01 SEC"}},
     {100, {"ACCELERATION IN CM/S/S", "ACCELERATION TIME SERIES (CM/SEC/SEC)", "UNITS: CM/S**2", "ACCELERATION [cm/s^2]",
            "ACCELERATION TIME SERIES IN UNITS OF CM/S/S", "ACCELERATION TIME SERIES IN UNITS OF CM/S/S, FILTERED",
            "acceleration in cm/sec2", "Acceleration (Gal)", "ACCELERATION IN GALS", "UNITS OF GAL.",

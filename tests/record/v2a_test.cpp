@@ -1,6 +1,10 @@
 // Files of GeoNet.
 #include "reading.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 namespace overturn {
 namespace {
 
@@ -19,20 +23,25 @@ std::string block(double first)
 /// A component whose samples are first, first + 1, ..., first + 11 mm/s2.
 std::string component(const std::string& name, double first)
 {
+    const bool is_last_larger = std::abs(first + 11) > std::abs(first);
+    const double mean = first + 5.5;
+    const double variance = 143.0 / 12; // of twelve consecutive numbers
     std::string text = "Corrected accelerogram 20200101_000000_NONE_20 Nobody\n"
                        "Site NONE      40 00 00S  170 00 00E     Cusp file:  none\n";
     for (int line = 3; line < 10; ++line) {
         text += "line " + std::to_string(line) + "\n";
     }
-    text += "Number of points    12    Duration   0.22 sec\n"
-            "Instrument corrected data at 0.020 sec intervals\n"
-            "Band-pass filter transition bands are .10-.25 Hz and 24.50-25.50 Hz\n"
-            "Component " +
-            name +
-            "  Some Accelerometer Axis\n"
-            "Acceleration:  peak   -100.0 mm/s/s at   0.00 sec     rms      1.0 mm/s/s\n"
-            "Velocity:      peak     -1.0 mm/s   at   0.00 sec     rms      1.0 mm/s\n"
-            "Displacement:  peak     -1.0 mm     at   0.00 sec     rms      1.0 mm\n";
+    text +=
+        "Number of points    12    Duration   0.22 sec\n"
+        "Instrument corrected data at 0.020 sec intervals\n"
+        "Band-pass filter transition bands are .10-.25 Hz and 24.50-25.50 Hz\n"
+        "Component " +
+        name + "  Some Accelerometer Axis\n" +
+        fmt::format("Acceleration:  peak {:8.1f} mm/s/s at   {:.2f} sec     rms {:8.1f} mm/s/s\n",
+                    is_last_larger ? first + 11 : first, is_last_larger ? 0.22 : 0,
+                    std::sqrt(mean * mean + variance)) +
+        "Velocity:      peak     -1.0 mm/s   at   0.00 sec     rms      1.0 mm/s\n"
+        "Displacement:  peak     -1.0 mm     at   0.00 sec     rms      1.0 mm\n";
     for (int line = 17; line < 20; ++line) {
         text +=
             "    2020       1       1       0       0       0       0       0    2020       1\n";
@@ -40,7 +49,7 @@ std::string component(const std::string& name, double first)
     text += "   65536     250     250      12      12      12       0       0       2   19715\n"
             "   200.0    0.70    0.00   0.000  0.0000   0.000   0.000   1.000     0.0    0.00\n"
             "  40.000 170.000   40.00  170.00    5.00    0.00    0.00    0.00      0.      0.\n"
-            "  327.68    5.00    5.00  163.82  0.0050  0.0200      0.      0.      0.  9806.6\n";
+            "  327.68    0.00    0.00    0.22  0.0050  0.0200      0.      0.      0.  9806.6\n";
     for (int line = 24; line < 27; ++line) {
         text +=
             "     0.0     0.0     0.0     0.0     0.0     0.0     0.0     0.0     0.0     0.0\n";
@@ -90,7 +99,8 @@ TEST(V2a, KeepsTheHeaderOfEachComponent)
 
 TEST(V2a, ReadsColumnsThatTouch)
 {
-    const std::string text = with(sound, "    -3.0    -2.0    -1.0", "-11024.7100000.0-20000.0");
+    std::string text = with(sound, "    -3.0    -2.0    -1.0", "-11024.7100000.0-20000.0");
+    text = with(text, "peak      8.0", "peak 100000.0");
     const Values values = parse_record(text, "a.txt").components.at(0).acceleration;
     EXPECT_EQ(values[0], -11024.7);
     EXPECT_EQ(values[1], 100000);
@@ -170,8 +180,8 @@ TEST(V2a, IsRefusedWithFileLineAndReason)
             "a.txt:23: the time step is 0 s, but must be above 0. Correct it."},
         {"AMissingTimeStep", with(sound, "  0.0050  0.0200", "  0.0050        "),
             "a.txt:23: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-        {"AnotherUnit", with(sound, "-100.0 mm/s/s at   0.00 sec     rms      1.0 mm/s/s", "-100.0 cm/s/s"),
-            "a.txt:14: \"Acceleration:  peak   -100.0 cm/s/s\" does not state the unit mm/s/s. Give the values as "
+        {"AnotherUnit", with(sound, "8.0 mm/s/s at   0.22 sec     rms      4.3 mm/s/s", "8.0 cm/s/s"),
+            "a.txt:14: \"Acceleration:  peak      8.0 cm/s/s\" does not state the unit mm/s/s. Give the values as "
             "text with their unit."},
         {"AComponentWithoutName", with(sound, "Component N28W", "Direction N28W"),
             "a.txt:13: \"Direction N28W  Some Accelerometer Axis\" does not name the component. Write it as in "

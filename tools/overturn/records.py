@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+import operator
 import os
+import warnings
 from typing import TYPE_CHECKING
 
 from overturn import core
@@ -33,17 +35,20 @@ def read_record(path: str | os.PathLike, component: int | str = 1, *, time_step:
                 units: str | None = None, gravity: float = 9.81) -> Record:
     """Reads one component of a recorded ground motion, as jobs do (docs/records.md).
 
-    component: its number, counted from 1, or its name.
+    component: its number, counted from 1, or its name, unless several components have this name.
     time_step [s] and units ("g", "m/s2", "cm/s2", "mm/s2" or "gal"): of files of text, which do not state
         them; units also of AT2 files whose header does not state a unit that is understood.
     gravity: g [m/s2], by which accelerations that are not in g are divided.
 
+    Warns of numbers of the header that differ from the samples by little (docs/records.md).
+
     Raises RecordError if the file cannot be read; ValueError if an argument is not allowed.
     """
-    components = core.components_of(os.fspath(path), time_step, units, gravity)
-    for number, found in enumerate(components, 1):
-        if component in (number, found["name"]):
-            return Record(**found)
-    names = ", ".join(f"{number} ({found['name']})" if found["name"] else str(number)
-                      for number, found in enumerate(components, 1))
-    raise ValueError(f"component = {component!r} is not a component of {path}. It has the components {names}.")
+    try:
+        choice = component if isinstance(component, str) else operator.index(component)
+    except TypeError:
+        raise ValueError(f"component = {component!r} is neither a number nor a name.") from None
+    found = core.component_of(os.fspath(path), choice, time_step, units, gravity)
+    for remark in found.pop("remarks"):
+        warnings.warn(f"{remark}.", stacklevel=2)
+    return Record(**found)

@@ -20,8 +20,9 @@ struct Motion {
     std::string vertical;  ///< component or file of the vertical motion as the job spells it
     std::string second;    ///< of the second horizontal component
     bool is_uncorrected;   ///< whether one of the files states that it was not corrected
-    std::vector<std::string> header;          ///< lines of the file in UTF-8
-    IntensityMeasures measures;               ///< not scaled
+    std::vector<std::string> remarks; ///< numbers of headers that differ from the samples by little
+    std::vector<std::string> header;  ///< lines of the file in UTF-8
+    IntensityMeasures measures;       ///< not scaled
     std::optional<MotionOf> stated_motion_of; ///< if one of the files states it
     std::optional<double> ground_pga;         ///< see RecordComponent; not scaled
     std::string checksum; ///< XXH64 of the accelerations over g, in hexadecimal digits

@@ -7,9 +7,11 @@
 #include "overturn/text/names.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace overturn {
@@ -26,12 +28,16 @@ struct RecordComponent {
     /// As in the file, such as "N28W"; empty if the file does not name it. Names may repeat. Bytes
     /// that are not UTF-8 are read as Latin-1.
     std::string name;
+    /// Where its sensor is, such as "Roof: SW"; empty if the file does not state it.
+    std::string place = {};
     std::vector<double> acceleration; ///< at least one sample [unit]
     AccelerationUnit unit = AccelerationUnit::g;
     double time_step = 0; ///< above 0 [s]
     /// Whether the file states that it was neither filtered nor corrected for the instrument.
     bool is_uncorrected = false;
     double start = 0; ///< time of the first sample, if the file states times [s]
+    /// Numbers of the header that differ from the samples by little, with their line.
+    std::vector<std::string> remarks = {};
     std::optional<MotionOf> motion_of = {}; ///< if the file states it
     /// Peak acceleration over g of the ground that caused the motion of a floor, if it is stated.
     std::optional<double> ground_pga = {};
@@ -48,6 +54,20 @@ struct RecordFile {
     std::vector<RecordComponent> components;
     bool has_given_unit = false; ///< whether the unit is that of the options
 };
+
+/// A component as users choose it: its number, counted from 1, or its name.
+using ComponentChoice = std::variant<std::int64_t, std::string>;
+
+/// The chosen component, or why there is none.
+struct ChosenComponent {
+    const RecordComponent* component; ///< null unless exactly one is meant
+    bool is_ambiguous;                ///< whether several are
+    std::string refusal;              ///< follows the choice, and lists all components
+};
+
+/// file: its name, for the refusal
+ChosenComponent chosen_component(const RecordFile& content, const ComponentChoice& choice,
+                                 const std::string& file);
 
 /// What a file of plain text does not state. Both are refused if the file states them.
 struct RecordOptions {
