@@ -11,6 +11,7 @@
 
 #include "overturn/farm/farm.hpp"
 #include "overturn/farm/stop_signals.hpp"
+#include "overturn/farm/tile_order.hpp"
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/file/stored_result.hpp"
@@ -84,22 +85,23 @@ FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& miss
 {
     const std::int64_t tiles_before = task.tiling.size() - std::int64_t(missing.size());
     Progress progress(task.items_in(tiles_before), task.items.count, task.items.name);
+    const TileOrder order(task.tiling.size());
     TileFields fields; // of the last tile computed
     const TileWork tile_work{
         .compute =
-            [&](std::int64_t number, const DropRequested& drop_requested) {
+            [&](std::int64_t place, const DropRequested& drop_requested) {
                 try {
-                    fields = compute_tile(task.problem, task.tiling[number], task.kernel,
+                    fields = compute_tile(task.problem, task.tiling[order.tile(place)], task.kernel,
                                           drop_requested);
                     return true;
                 } catch (const TileDropped&) {
                     return false;
                 }
             },
-        .write = [&](std::int64_t number) { file.write(task.tiling[number], fields); },
+        .write = [&](std::int64_t place) { file.write(task.tiling[order.tile(place)], fields); },
         .on_progress =
             [&](std::int64_t done) { progress.update(task.items_in(tiles_before + done)); }};
-    return farm_out(task.session, missing, tile_work,
+    return farm_out(task.session, order.places_of(missing), tile_work,
                     {StopSignals::requested, StopSignals::overdue},
                     std::chrono::seconds(task.options.patience));
 }
