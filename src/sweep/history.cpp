@@ -218,8 +218,12 @@ private:
         for (const Event<double>& event : path_.events) {
             const double time = time_at(event.rocking.phase);
             const bool is_at_onset = event.rocking.phase == excitation_.motion.begin;
-            follow(time, [&](double before) { // the onset, at which the motion may jump
-                return is_at_onset ? resting(before, 0.0) : at(before);
+            follow(time, [&](double before) {
+                HistorySample last = at(before);
+                if (is_at_onset) { // the block does not rest under a jump that lifts it
+                    last.friction = resting(before, 0.0).friction;
+                }
+                return last;
             });
             latest = event.kind == EventKind::rest ? nullptr : &event;
             if (event.kind != EventKind::step) {
