@@ -241,7 +241,7 @@ TEST_F(SpectrumFileBytes, IncludeTheTableAndTheRecords)
 {
     std::string table = "name,height,width,restitution\n";
     for (int i = 1; i <= 3000; ++i) {
-        table += "block " + std::to_string(i) + "," + std::to_string(i) + ",0.5,0.9\n";
+        table += "block " + std::to_string(i) + "," + std::to_string(1 + 0.01 * i) + ",0.5,0.9\n";
     }
     write_bytes(folder / "blocks.csv", table);
     std::string samples;

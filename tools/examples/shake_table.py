@@ -8,6 +8,7 @@ import pathlib
 import re
 import sys
 import typing
+import warnings
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
@@ -40,7 +41,8 @@ known); for the fit also `record`, the name of the record. Other datasets are no
 FREQUENCY_PARAMETER = 4.5  # p [1/s]
 # [rad]; steps of 1.9 %: 32 or more between -3 and 3 times the smallest scatter.
 SLENDERNESS = np.geomspace(0.03, 0.6, 161)
-RESTITUTION = np.linspace(0.5, 0.98, 25)  # r [1]
+RESTITUTION = np.linspace(0.5, 0.98, 25)  # r [1]; above r_max of the wider blocks
+warnings.filterwarnings("ignore", "r = .* is above r_max")
 RESTITUTION_RANGE = 0.12  # r varies by less, with triangular weights [1]
 BOUNDS = {"slenderness": (0.04, 0.5), "restitution": (0.5, 0.98), "scatter": (0.1, 0.6)}
 WRONG_FLAGS = 0.01  # probability that a flag is wrong: bounds the likelihood of a single test [1]
