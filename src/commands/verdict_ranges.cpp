@@ -2,6 +2,7 @@
 
 #include "overturn/problem/axis.hpp"
 #include "overturn/text/mapped.hpp"
+#include "overturn/text/parse_number.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -93,7 +94,7 @@ std::string list_of(const std::vector<VerdictInterval>& intervals, int decimals,
 double rounded_down(double value, int decimals)
 {
     const auto nearest_to = [&](double number) {
-        return std::stod(fmt::format("{:.{}f}", number, decimals));
+        return parse_number(fmt::format("{:.{}f}", number, decimals)).value;
     };
     const double nearest = nearest_to(value);
     return nearest <= value ? nearest : nearest_to(nearest - std::pow(10, -decimals));

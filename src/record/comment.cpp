@@ -3,11 +3,12 @@
 #include "comment_words.hpp"
 #include "stated_unit.hpp"
 
+#include "overturn/text/parse_number.hpp"
+
 #include <boost/algorithm/string.hpp>
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 
 namespace overturn {
@@ -305,8 +306,7 @@ void expect_time_step(const Lines& comment, double time_step)
     };
     bool is_stated = false;
     for (const std::string_view word : words) {
-        double value = 0;
-        std::from_chars(word.data(), word.data() + word.size(), value);
+        const double value = parse_number(word).value;
         if (value > 0 && ((has_step && agrees(value / unit)) || (has_rate && agrees(1 / value)))) {
             return;
         }

@@ -1,6 +1,7 @@
 #include "numbers.hpp"
 
 #include "overturn/record/read_record.hpp"
+#include "overturn/text/parse_number.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,12 +25,8 @@ Parsed parse(std::string_view word)
     std::string text(word);
     std::ranges::replace(text, 'd', 'e');
     std::ranges::replace(text, 'D', 'E');
-    // std::from_chars does not accept a plus sign.
-    const std::size_t plus = text.starts_with('+') && !text.starts_with("+-") ? 1 : 0;
-    const char* const last = text.data() + text.size();
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data() + plus, last, value);
-    return {value, end == last ? error : std::errc::invalid_argument};
+    const ParsedNumber number = parse_number(text);
+    return {number.value, is_whole(number, text) ? number.error : std::errc::invalid_argument};
 }
 
 /// The length of the first number of a text: up to a blank, or to a sign that does not belong to an
