@@ -86,7 +86,7 @@ TileFields spectrum_tile(const Problem& problem, const Tile& tile, Kernel kernel
                          const DropRequested& drop_requested)
 {
     const auto& [scene, grid, numerics, product, fields] = problem;
-    const auto wanted = [&fields = fields](Field field) { return is_one_of(field, fields); };
+    const auto wanted = [&problem](Field field) { return is_one_of(field, problem.fields); };
     const bool has_contact = wanted(Field::friction) || wanted(Field::normal);
     const PointRun points(scene, Coordinates(scene, grid, tile).points(), kernel, drop_requested,
                           !grid.has_two_sides());

@@ -7,7 +7,7 @@ namespace overturn {
 
 /// The coordinates of a point, assumed to be exact.
 struct Point {
-    Block<double> block; ///< as seen from its side plus
+    Block<double> block{0, 0}; ///< as seen from its side plus
     /// a, see scaled_pulse(); under records, the factor on the record [1]. Negative: the mirrored
     /// motion, which is the direction of 180 degrees.
     double amplitude;
