@@ -1,5 +1,5 @@
-"""The fields peak, friction and normal compared with a motion that SciPy integrates, with forces from the acceleration
-of the centre of mass. Requires OVERTURN (the binary) in the environment. SUDDEN_ONSETS, 3 by default, is the number of
+"""All fields of a motion compared with one that SciPy integrates, with forces from the acceleration of the centre of
+mass. Requires OVERTURN (the binary) in the environment. SUDDEN_ONSETS, 3 by default, is the number of
 points of each kind of block under each motion that begins with a jump."""
 
 import os
@@ -17,6 +17,7 @@ except ImportError:
     solve_ivp = None
 
 G = 9.81
+FIELDS = ("region", "angle", "velocity", "peak", "fall_time", "friction", "normal", "impacts", "status")
 
 
 class Rocker:
@@ -55,12 +56,14 @@ class Rocker:
 class Follower:
     """Follows a block from rest under a ground acceleration over g that is smooth between the times `pieces` and ends
     with the last of them. `demand` is the largest friction and the smallest normal force; None if the block bounces
-    too often to be followed. `peak` is the largest tilt over alpha, infinite if the block falls."""
+    too often to be followed. `peak` is the largest tilt over alpha, infinite if the block falls; `end` its angle and
+    velocity at the end of the motion, or of its fall before; `lifted` and `fallen` are times."""
 
     def __init__(self, block, ground, pieces):
         self.block, self.ground, self.pieces = block, ground, pieces
         self.kept, self.beyond = [block.at_rest(0)], []
-        self.demand, self.peak = None, 0.0
+        self.demand, self.peak, self.end, self.impacts = None, 0.0, (0.0, 0.0), 0
+        self.lifted, self.fallen = None, np.inf
         if self.follow():
             friction, normal = np.array(self.kept).T
             self.demand = friction.max(), normal.min()
@@ -105,13 +108,18 @@ class Follower:
                     if time > begin:
                         self.kept += self.extremes(lambda t: self.block.at_rest(ground(t)), begin, time)
                     tilt, rate = 0.0, 0.0
+                    self.lifted = time if self.lifted is None and side else self.lifted
                     continue
                 time, tilt, rate, event = self.arc(side, (time, end), (tilt, rate), ground)
+                if not is_free:
+                    self.end = side * tilt, side * rate
                 if event == "fall":
+                    self.fallen = time
                     return True
                 if event == "impact":
                     tilt, rate, side = 0.0, self.block.after_impact(side, rate), -side
                     impacts, after = impacts + 1, after + is_free
+                    self.impacts += not is_free
                     if impacts > 40 or (rate < 1e-3 and not is_free):
                         return False
                     if after == 24:  # the later arcs approach the standing block
@@ -132,7 +140,7 @@ class Follower:
             return state[0] - block.alpha[side]
 
         def fall(time, state):
-            return state[0] - 1.5
+            return state[0] - np.pi / 2
 
         def turn(time, state):
             return state[1]
@@ -159,7 +167,7 @@ class Follower:
         self.peak = max([self.peak, *np.array([*turned, motion.y[0, -1]]) / block.alpha[side]])
         if motion.t_events[2].size:
             self.peak = np.inf
-            return end, 1.5, 0.0, "fall"
+            return end, np.pi / 2, motion.y[1, -1], "fall"
         if motion.t_events[0].size:
             self.kept, self.beyond = self.kept + self.beyond, []
             return end, 0.0, motion.y[1, -1], "impact"
@@ -218,11 +226,11 @@ class AContact(Scratch):
             [",".join(rows[0]), *(",".join(repr(float(value)) for value in row.values()) for row in rows)]))
         (self.folder / "job.toml").write_text(
             f'[scene]\n{scene}\ngravity = {G}\n[blocks]\ntable = "t.csv"\n[numerics]\nmethod = "taylor"\n'
-            'tolerance = 1e-11\n[output]\nfields = ["region", "peak", "friction", "normal", "status"]\n')
+            f'tolerance = 1e-11\n[output]\nfields = {list(FIELDS)}\n')
         (self.folder / "r.h5").unlink(missing_ok=True)
         self.assert_exit(self.overturn("run", "job.toml", "-o", "r.h5"), 0)
         with h5py.File(self.folder / "r.h5") as file:
-            return {name: file[name][:].ravel() for name in ("region", "peak", "friction", "normal", "status")}
+            return {name: file[name][:].ravel() for name in FIELDS}
 
     def compare(self, scene, rows, ground_of, pieces_of):
         found = self.computed(scene, rows)
@@ -236,12 +244,26 @@ class AContact(Scratch):
             with self.subTest(row=row):
                 self.assertEqual(found["status"][number] & 32, 32 * (normal <= 0))
                 self.assertAlmostEqual(found["peak"][number], follower.peak, delta=1e-8)
+                self.compare_state(follower, {name: values[number] for name, values in found.items()})
                 self.assertAlmostEqual(found["normal"][number], normal, delta=1e-8)
                 if np.isfinite(friction):
                     self.assertAlmostEqual(found["friction"][number] / friction, 1, delta=1e-8 / min(normal, 1))
                 else:
                     self.assertEqual(found["friction"][number], np.inf)
         return compared
+
+    def compare_state(self, follower, found):
+        """Errors grow e-fold in each 1/p of a motion, and near the top without bound."""
+        block = follower.block
+        p = np.sqrt(G * block.radius[1] / block.moment[1])
+        angle, velocity = follower.end
+        self.assertAlmostEqual(found["angle"], angle, delta=1e-7)
+        self.assertAlmostEqual(found["velocity"], velocity / p, delta=1e-7)
+        self.assertEqual(found["impacts"], follower.impacts)
+        if np.isfinite(follower.fallen):
+            self.assertAlmostEqual(found["fall_time"], p * (follower.fallen - follower.lifted), delta=1e-6)
+        else:
+            self.assertEqual(found["fall_time"], np.inf)
 
     def compare_under_pulses(self, seed, count, two_sided):
         random = np.random.default_rng(seed)
