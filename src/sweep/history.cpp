@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace overturn {
 
@@ -40,26 +41,41 @@ ForcedPath forced_path(const Block<double>& block, const Excitation& excitation)
     return {stage.events(), stage.end()};
 }
 
-/// The state at a phase [rad] between an event, after which the block rocks, and the next one.
-/// Evaluates the series of the step itself.
-template <Theory theory, class Excitation>
-State<double> state_after(const Event<double>& event, const Block<double>& block,
-                          const Excitation& excitation, double phase)
-{
-    const Rocking<double>& from = event.rocking;
-    const Block<double> seen = seen_from(from.side, block);
-    const double frequency = excitation.frequency / (block.is_symmetric() ? 1 : seen.pace);
-    const double unit = 1 / std::max(1.0, frequency); // as in TaylorStepper
-    const double phase_per_unit = frequency * unit;
-    const auto push = excitation.template series<path_order>(from.side * excitation.acceleration,
-                                                             from.phase, phase_per_unit);
-    const auto series = rocking_series<theory, path_order>(from.tilt, from.rate * unit,
-                                                           seen.slenderness, push, unit);
-    const double time = (phase - from.phase) / phase_per_unit;
-    return {.tilt = std::max(0.0, value_of_series(series.tilt, time)),
-            .rate = value_of_series(series.rate, time) / unit,
-            .side = from.side};
-}
+/// The motion between an event, after which the block rocks, and the next one: the series of the
+/// step itself.
+template <Theory theory>
+class MotionAfter {
+public:
+    template <class Excitation>
+    MotionAfter(const Event<double>& event, const Block<double>& block,
+                const Excitation& excitation)
+        : from_(event.rocking)
+    {
+        const Block<double> seen = seen_from(from_.side, block);
+        const double frequency = excitation.frequency / (block.is_symmetric() ? 1 : seen.pace);
+        unit_ = 1 / std::max(1.0, frequency); // as in TaylorStepper
+        phase_per_unit_ = frequency * unit_;
+        const auto push = excitation.template series<path_order>(
+            from_.side * excitation.acceleration, from_.phase, phase_per_unit_);
+        series_ = rocking_series<theory, path_order>(from_.tilt, from_.rate * unit_,
+                                                     seen.slenderness, push, unit_);
+    }
+
+    /// The state at a phase, in the unit of the excitation.
+    State<double> at(double phase) const
+    {
+        const double time = (std::max(phase, from_.phase) - from_.phase) / phase_per_unit_;
+        return {.tilt = std::max(0.0, value_of_series(series_.tilt, time)),
+                .rate = value_of_series(series_.rate, time) / unit_,
+                .side = from_.side};
+    }
+
+private:
+    Rocking<double> from_;
+    double unit_;
+    double phase_per_unit_;
+    RockingSeries<path_order, double> series_;
+};
 
 /// Records the state of a block up to the last time shown: at evenly spaced times, and before and
 /// after each event.
@@ -205,15 +221,11 @@ private:
 
     void record_forced_stage()
     {
-        const Event<double>* latest = nullptr; // null: at rest
+        std::optional<MotionAfter<theory>> motion; // nullopt: at rest
         const auto at = [&](double time) {
             const double phase = std::min(phase_at(time), excitation_.motion.end);
             const auto ground = excitation_.ground(phase);
-            if (latest == nullptr) {
-                return resting(time, ground);
-            }
-            const double later = std::max(phase, latest->rocking.phase);
-            return sample(time, state_after<theory>(*latest, block_, excitation_, later), ground);
+            return motion ? sample(time, motion->at(phase), ground) : resting(time, ground);
         };
         for (const Event<double>& event : path_.events) {
             const double time = time_at(event.rocking.phase);
@@ -225,7 +237,10 @@ private:
                 }
                 return last;
             });
-            latest = event.kind == EventKind::rest ? nullptr : &event;
+            motion.reset();
+            if (event.kind != EventKind::rest) {
+                motion.emplace(event, block_, excitation_);
+            }
             if (event.kind != EventKind::step) {
                 record_event(event.kind, at(time));
             }
@@ -234,10 +249,9 @@ private:
         if (path_.end.fell) {
             record_event(EventKind::fall, last_);
         } else if (is_free()) {
-            const bool rests = latest == nullptr;
-            record_event(EventKind::end_of_pulse, rests
-                                                      ? resting(end_of_path_, 0.0)
-                                                      : sample(end_of_path_, path_.end.state, 0.0));
+            record_event(EventKind::end_of_pulse, motion
+                                                      ? sample(end_of_path_, path_.end.state, 0.0)
+                                                      : resting(end_of_path_, 0.0));
         }
     }
 
