@@ -5,7 +5,10 @@
 #include "overturn/mechanics/record_excitation.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <random>
+#include <utility>
 
 namespace overturn {
 
@@ -39,14 +42,41 @@ inline double random_threshold(std::mt19937_64& generator, const Accelerogram& r
     return scale * record.peak() * uniform(generator);
 }
 
+/// Standard normal numbers by the polar method. Those of std::normal_distribution are in another
+/// order in libc++ than in libstdc++.
+class NormalNumbers {
+public:
+    double operator()(std::mt19937_64& generator)
+    {
+        if (saved_) {
+            return *std::exchange(saved_, std::nullopt);
+        }
+        std::uniform_real_distribution<double> uniform(0, 1);
+        double x = 0;
+        double y = 0;
+        double square = 0;
+        do {
+            x = 2 * uniform(generator) - 1;
+            y = 2 * uniform(generator) - 1;
+            square = x * x + y * y;
+        } while (square > 1 || square == 0);
+        const double factor = std::sqrt(-2 * std::log(square) / square);
+        saved_ = x * factor;
+        return y * factor;
+    }
+
+private:
+    std::optional<double> saved_;
+};
+
 /// Noise whose neighbouring samples are similar, most of it within -1 and 1.
 inline std::vector<double> random_samples(std::mt19937_64& generator, int samples)
 {
-    std::normal_distribution<double> normal(0, 0.35);
+    NormalNumbers normal;
     std::vector<double> noise;
     double last = 0;
     for (int i = 0; i < samples; ++i) {
-        last = 0.8 * last + normal(generator);
+        last = 0.8 * last + 0.35 * normal(generator);
         noise.push_back(last);
     }
     return noise;
