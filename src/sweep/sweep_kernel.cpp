@@ -120,22 +120,18 @@ struct PackPoints {
 
     Block<T> blocks() const
     {
-        const auto of_block = [&](const auto& value) -> T {
-            return gathered([&](int i) { return value(task.points[i].block); });
-        };
-        using B = Block<double>;
-        const T slenderness = of_block([](const B& block) { return block.slenderness; });
-        const T restitution = of_block([](const B& block) { return block.restitution; });
         if (task.are_symmetric) {
-            return {slenderness, restitution};
+            return {gathered([&](int i) { return task.points[i].block.slenderness; }),
+                    gathered([&](int i) { return task.points[i].block.restitution; })};
         }
-        return {slenderness,
-                restitution,
-                of_block([](const B& block) { return block.size; }),
-                of_block([](const B& block) { return block.pace; }),
-                {of_block([](const B& block) { return block.other.slenderness; }),
-                 of_block([](const B& block) { return block.other.size; }),
-                 of_block([](const B& block) { return block.other.pace; })}};
+        return [&]<std::size_t... lane>(std::index_sequence<lane...>) {
+            return combined(
+                [](const std::same_as<double> auto&... members) {
+                    const S values[]{S(members)...};
+                    return load<T>(values);
+                },
+                task.points[point[lane]].block...);
+        }(std::make_index_sequence<std::size_t(lanes)>());
     }
 
     /// The ground never lifts the blocks in spare lanes, so a pack without points ends immediately.

@@ -20,8 +20,9 @@ Block<T> random_block(std::mt19937_64& generator)
         return BlockSide<T>{T(0.1 + 0.6 * uniform(generator)), T(0.9 + 0.2 * uniform(generator)),
                             T(0.5 + uniform(generator))};
     };
-    const auto [slenderness, size, pace] = side();
-    return {slenderness, T(0.3 + 0.7 * uniform(generator)), size, pace, side()};
+    const BlockSide<T> here = side();
+    const T restitution(0.3 + 0.7 * uniform(generator));
+    return {here, restitution, side()};
 }
 
 template <class T>

@@ -31,15 +31,12 @@ struct Body {
     /// As seen from the side plus.
     Block<double> block(double restitution, double gravity = 9.81) const
     {
-        const auto size = [&](double base) { return std::hypot(base, height); };
-        const auto pace = [&](double base) {
-            return std::sqrt(gravity * size(base) / inertia(base));
+        const auto side = [&](double base, double tilted) -> BlockSide<double> {
+            const double size = std::hypot(base, height);
+            return {std::atan(base / height) + tilted, size,
+                    std::sqrt(gravity * size / inertia(base))};
         };
-        return {std::atan(plus / height) - incline,
-                restitution,
-                size(plus),
-                pace(plus),
-                {std::atan(minus / height) + incline, size(minus), pace(minus)}};
+        return {side(plus, -incline), restitution, side(minus, incline)};
     }
     /// Whether it stands on its base, and rocks on after an impact.
     bool stands() const

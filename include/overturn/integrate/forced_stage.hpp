@@ -296,15 +296,9 @@ private:
     {
         [[maybe_unused]] const T before = block_.slenderness;
         const Mask is_plus = now_.side > 0;
-        const Block<T> turned = from_plus_.turned();
-        const auto side_of = [&](const Block<T>& plus, const Block<T>& minus) -> BlockSide<T> {
-            return {select<T>(is_plus, plus.slenderness, minus.slenderness),
-                    select<T>(is_plus, plus.size, minus.size),
-                    select<T>(is_plus, plus.pace, minus.pace)};
-        };
-        const BlockSide<T> here = side_of(from_plus_, turned);
-        block_ = {here.slenderness, block_.restitution, here.size, here.pace,
-                  side_of(turned, from_plus_)};
+        block_ =
+            combined([&](const T& plus, const T& minus) { return select<T>(is_plus, plus, minus); },
+                     from_plus_, from_plus_.turned());
         if constexpr (outputs.peak) {
             T& peak = end_of_run_.peak;
             peak = peak * (block_.slenderness / before);

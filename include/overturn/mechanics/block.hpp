@@ -15,35 +15,57 @@ struct BlockSide {
     T slenderness; ///< alpha: the tilt at which it would balance [rad]
     T size = T(1); ///< R: distance from the corner to the centre of mass
     T pace = T(1); ///< p: frequency parameter
+
+    friend mask_t<T> operator==(const BlockSide& one, const BlockSide& other)
+    {
+        return one.slenderness == other.slenderness && one.size == other.size &&
+               one.pace == other.pace;
+    }
 };
 
-/// A block as seen from the side on which it rocks. By default the block is symmetric: both sides
-/// have the same slenderness, and size and pace 1.
+/// The side with the members combine(a member of each of these sides).
+template <class Combine, Number... T>
+auto combined(const Combine& combine, const BlockSide<T>&... sides)
+    -> BlockSide<decltype(combine(sides.size...))>
+{
+    return {combine(sides.slenderness...), combine(sides.size...), combine(sides.pace...)};
+}
+
+/// A block as seen from the side on which it rocks: this side, with the other one.
 template <Number T>
-struct Block {
-    T slenderness; ///< alpha of this side; of a symmetric block: arctan(b / h) [rad]
+struct Block : BlockSide<T> {
     T restitution; ///< r: ratio of the energies after and before an impact [1]
-    T size = T(1); ///< see BlockSide
-    T pace = T(1);
-    BlockSide<T> other{slenderness, size, pace};
+    BlockSide<T> other;
+
+    Block(const BlockSide<T>& side, const T& r, const BlockSide<T>& other_side)
+        : BlockSide<T>(side), restitution(r), other(other_side)
+    {}
+
+    /// Symmetric, with size and pace 1; the slenderness is arctan(b / h).
+    Block(const T& alpha, const T& r)
+        : BlockSide<T>{alpha}, restitution(r), other{alpha}
+    {}
 
     /// The same block as seen from the other side.
-    Block turned() const
-    {
-        return {other.slenderness, restitution, other.size, other.pace, {slenderness, size, pace}};
-    }
+    Block turned() const { return {other, restitution, *this}; }
 
     /// Per lane: whether the sides are equal.
-    mask_t<T> is_symmetric() const
-    {
-        return slenderness == other.slenderness && size == other.size && pace == other.pace;
-    }
+    mask_t<T> is_symmetric() const { return *this == other; }
 
     /// The ratio of the rates after and before an impact, each in units of the p of its side:
     /// sqrt(r R_i / R_j) from this side i to the other side j. The energy, m g R u^2 / 2, changes
     /// by the factor r.
-    T rate_ratio() const { return sqrt(restitution * (size / other.size)); }
+    T rate_ratio() const { return sqrt(restitution * (this->size / other.size)); }
 };
+
+/// The block with the members combine(a member of each of these blocks).
+template <class Combine, Number... T>
+auto combined(const Combine& combine, const Block<T>&... blocks)
+    -> Block<decltype(combine(blocks.restitution...))>
+{
+    return {combined(combine, static_cast<const BlockSide<T>&>(blocks)...),
+            combine(blocks.restitution...), combined(combine, blocks.other...)};
+}
 
 /// The block, given as seen from its side plus, as seen from a side, +1 or -1.
 template <Number T>
@@ -57,11 +79,7 @@ Block<T> seen_from(const T& side, const Block<T>& block)
 template <Number T>
 Block<T> block_in(const Block<double>& block)
 {
-    return {T(block.slenderness),
-            T(block.restitution),
-            T(block.size),
-            T(block.pace),
-            {T(block.other.slenderness), T(block.other.size), T(block.other.pace)}};
+    return combined([](double member) { return T(member); }, block);
 }
 
 /// The state of a rocking block. The side is stored separately, because theta is 0 at uplift and
@@ -77,12 +95,7 @@ struct State {
 template <Number T>
 Block<estimate_t<T>> estimate_of(const Block<T>& block)
 {
-    return {estimate_of(block.slenderness),
-            estimate_of(block.restitution),
-            estimate_of(block.size),
-            estimate_of(block.pace),
-            {estimate_of(block.other.slenderness), estimate_of(block.other.size),
-             estimate_of(block.other.pace)}};
+    return combined([](const T& member) { return estimate_of(member); }, block);
 }
 
 /// The largest restitution of a rocking block (Eq. 17); alpha [rad]:
