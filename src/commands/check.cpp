@@ -189,7 +189,7 @@ int check(const JobSource& source)
     print_scene(job);
     print_coordinates(job.problem.grid);
     print_row(job.blocks ? "blocks" : "block", block_line(job));
-    if (job.problem.scene.theory == Theory::nonlinear) {
+    if (has_contact_forces(job.problem.scene.theory)) {
         print_row("contact", contact_line(job));
     }
     if (const std::string names = unused_columns(job); !names.empty()) {

@@ -222,7 +222,7 @@ void print_question(const std::vector<DirectedAnswer>& all, const ToppleOptions&
     }
     print_row("motion", motion + direction);
     print_motion_of("", scene.motion_of);
-    if (scene.theory != Theory::nonlinear) {
+    if (scene.theory != Scene().theory) {
         print_row("theory", name_of(scene.theory));
     }
     const RestitutionAnswer& requested = all.front().answer.requested();

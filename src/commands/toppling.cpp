@@ -24,7 +24,7 @@ std::vector<double> friction_to_topple(const Problem& of_one_point, const Verdic
 {
     const Scene& scene = of_one_point.scene;
     const auto toppling = ranges.with(Verdict::topples);
-    if (toppling.empty() || scene.theory != Theory::nonlinear) {
+    if (toppling.empty() || !has_contact_forces(scene.theory)) {
         return {};
     }
     // At the end itself, whether the block topples, and with it the friction, may be unknown.
@@ -166,7 +166,7 @@ ToppleAnswer answer_of(const Problem& problem, const ToppleQuestion& question)
         answer.verdict = std::isnan(answer.peak)   ? Verdict::undecided
                          : std::isinf(answer.peak) ? Verdict::topples
                                                    : Verdict::safe;
-        if (scene.theory == Theory::nonlinear) {
+        if (has_contact_forces(scene.theory)) {
             answer.friction = accurate_values(problem, Field::friction).front();
         }
     }

@@ -121,7 +121,7 @@ void expect_computable(const Entry& job, const Problem& problem)
                largest_rk45_tolerance_with_error);
     }
     for (const Field field : {Field::friction, Field::normal}) {
-        if (problem.scene.theory == Theory::linear && is_one_of(field, problem.fields)) {
+        if (!has_contact_forces(problem.scene.theory) && is_one_of(field, problem.fields)) {
             refuse(key("output", "fields"),
                    " contains \"{}\", but the linear theory has no forces of the contact. Remove "
                    "it, or use theory = \"nonlinear\".",

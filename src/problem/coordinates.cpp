@@ -25,8 +25,9 @@ std::optional<double> r_max_of(double slenderness)
 
 double uplift_threshold(Theory theory, double slenderness)
 {
-    return with_theory(theory,
-                       [&]<Theory known>() { return uplift_acceleration<known>(slenderness); });
+    return with_theory(theory, [&]<Theory known>() {
+        return Equations<known>::uplift_acceleration(BlockSide{slenderness});
+    });
 }
 
 std::shared_ptr<const Accelerogram> directed_record(const Scene& scene, const Point& point)

@@ -153,7 +153,7 @@ public:
     {
         const Block<double>& block = line_.point.block;
         const double ratio = with_theory(scene_.theory, [&]<Theory theory>() {
-            return barrier_ratio<theory>(separatrix_rate<theory>(0.0, block.slenderness), block);
+            return barrier_ratio<theory>(Equations<theory>::separatrix_rate(block, 0.0), block);
         });
         return block.restitution * std::max(ratio, 1 / ratio) <= 1;
     }

@@ -72,8 +72,8 @@ std::array<double, switches_of_safety> safety_at(const State<double>& end,
         return (q0 + limit.minus_q_min) / (q_max + limit.minus_q_min);
     };
     const Block<double> before = block.turned();
-    const double outward_before = separatrix_rate<theory>(end.tilt, before.slenderness);
-    const double largest_before = separatrix_rate<theory>(0.0, before.slenderness);
+    const double outward_before = Equations<theory>::separatrix_rate(before, end.tilt);
+    const double largest_before = Equations<theory>::separatrix_rate(before, 0.0);
     return {(safe.outward - u) / safe.largest, above(safe.one), above(safe.two),
             (u + safe.outward) / safe.largest,
             (outward_before - u / before.rate_ratio()) / largest_before};

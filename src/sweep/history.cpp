@@ -57,8 +57,8 @@ public:
         phase_per_unit_ = frequency * unit_;
         const auto push = excitation.template series<path_order>(
             from_.side * excitation.acceleration, from_.phase, phase_per_unit_);
-        series_ = rocking_series<theory, path_order>(from_.tilt, from_.rate * unit_,
-                                                     seen.slenderness, push, unit_);
+        series_ = Equations<theory>::template series<path_order>(seen, from_.tilt,
+                                                                 from_.rate * unit_, push, unit_);
     }
 
     /// The state at a phase, in the unit of the excitation.
@@ -165,13 +165,13 @@ private:
         const Block<double> seen = seen_from(state.side, block_);
         const double pace = seen.pace / block_.pace;
         const Ground push = state.side * ground;
-        const double pull = rocking_acceleration<theory>(state.tilt, seen.slenderness, push);
+        const double pull = Equations<theory>::acceleration(seen, state.tilt, push);
         const MovingBlock<double, Ground> moving{state.tilt, state.rate, push, push};
         return {.time = time,
                 .angle = state.side * state.tilt + 0.0, // no -0
                 .velocity = state.side * state.rate * pace + 0.0,
                 .acceleration = state.side * pull * (pace * pace),
-                .q = double(conserved_q<theory>(state, seen.slenderness)),
+                .q = double(conserved_q<theory>(state, seen)),
                 .ground = horizontal_of(ground),
                 .friction = friction_of(
                     force_while_rocking(sides_.seen_from(state.side), seen.slenderness, moving))};
@@ -188,7 +188,7 @@ private:
 
     static double friction_of(const ContactForce<double>& force)
     {
-        return theory == Theory::linear ? unknown : force.friction();
+        return Equations<theory>::has_contact_forces ? force.friction() : unknown;
     }
 
     bool is_over(double time) const { return time > until_; }

@@ -283,7 +283,7 @@ MarginAndError margin_of_low_bounces(const Block<double>& block, const LowBounce
     };
     if (block.is_symmetric()) {
         // The distances to the limits of the rate change by no more than the tilt plus the rate.
-        return {1, (bounds.tilt + bounds.rate) / separatrix_rate<theory>(0.0, block.slenderness)};
+        return {1, (bounds.tilt + bounds.rate) / Equations<theory>::separatrix_rate(block, 0.0)};
     }
     const auto [least, most] = std::minmax({margin_of(1, 0, 0), margin_of(-1, 0, 0)});
     double smallest = least;

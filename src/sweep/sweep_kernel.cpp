@@ -77,7 +77,7 @@ template <Theory theory, Outputs outputs>
         put_if(wanted.grazes, end.softest_impact, &Outcome::softest_impact);
         put_if(wanted.grazes, end.last_impact, &Outcome::last_impact);
     }
-    if constexpr (outputs.peak && theory == Theory::nonlinear) {
+    if constexpr (outputs.peak && Equations<theory>::has_contact_forces) {
         if (wanted.contact) {
             const auto demand = stage.contact_demand();
             put(demand.friction, &Outcome::friction);
@@ -143,8 +143,8 @@ struct PackPoints {
                     select<T>(load<T>(spare) == T(0.0),
                               gathered([&](int i) { return task.points[i].amplitude; }), T(0.0)),
                 .frequency = gathered([&](int i) { return task.points[i].frequency; }),
-                .to_plus = uplift_acceleration<theory>(blocks.slenderness),
-                .to_minus = uplift_acceleration<theory>(blocks.other.slenderness)};
+                .to_plus = Equations<theory>::uplift_acceleration(blocks),
+                .to_minus = Equations<theory>::uplift_acceleration(blocks.other)};
     }
 
     /// N: T, as a parameter because kernels for records do not compile this.
@@ -185,7 +185,7 @@ template <Theory theory, Outputs outputs>
 std::optional<ContactSides<estimate_t<T>>> contact_of([[maybe_unused]] const PackPoints& points,
                                                       [[maybe_unused]] const Block<T>& blocks)
 {
-    if constexpr (outputs.peak && theory == Theory::nonlinear) {
+    if constexpr (outputs.peak && Equations<theory>::has_contact_forces) {
         if (points.task.outputs.contact) {
             const T gyration =
                 points.gathered([&](int i) { return points.task.points[i].gyration; });
@@ -298,8 +298,8 @@ SweepKernel kernel_for(const Outputs& outputs, Directions directions)
 
 SweepKernel OVERTURN_KERNEL(Theory theory, const Outputs& outputs, Directions directions)
 {
-    return theory == Theory::linear ? kernel_for<Theory::linear>(outputs, directions)
-                                    : kernel_for<Theory::nonlinear>(outputs, directions);
+    return with_theory(theory,
+                       [&]<Theory known>() { return kernel_for<known>(outputs, directions); });
 }
 
 } // namespace overturn

@@ -27,7 +27,7 @@ Truth end_of(const HardCase& point, const PulseExcitation<T>& excitation, int st
     }
     const State<T>& state = end.state;
     const T margin = margin_of<theory>(end, block);
-    const T arc = separatrix_rate<theory>(state.tilt, block.slenderness);
+    const T arc = Equations<theory>::separatrix_rate(block, state.tilt);
     return {.region = region_of<theory>(end, block),
             .settled = end.error < abs(margin),
             .fell = end.fell,

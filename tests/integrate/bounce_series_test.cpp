@@ -90,7 +90,8 @@ bool bounces_on_to_rest(const AfterImpact<Excitation>& start, double end)
     double side = start.side;
     StepMotion<double> motion{0, start.rate, 0};
     const auto pull = [&](double tilt, double at, double on) {
-        return rocking_acceleration<theory>(tilt, alpha, on * start.excitation.ground(at));
+        return Equations<theory>::acceleration(BlockSide{alpha}, tilt,
+                                               on * start.excitation.ground(at));
     };
     while (motion.rate > 1e-3 * start.rate) {
         // Twenty steps per flight, but at most 0.1 each because motion grows e-fold in 1/p.
@@ -158,8 +159,9 @@ random_impact(const Accelerogram& record, double slenderness, std::mt19937_64& g
     const double restitution = 0.01 + 0.9 * uniform(generator);
     const double lasts = std::pow(10, -2 + 2 * uniform(generator)) / frequency;
     return {{slenderness, restitution},
-            {record_motion<double>(record), 1, frequency, uplift_acceleration<theory>(slenderness),
-             uplift_acceleration<theory>(slenderness)},
+            {record_motion<double>(record), 1, frequency,
+             Equations<theory>::uplift_acceleration(BlockSide{slenderness}),
+             Equations<theory>::uplift_acceleration(BlockSide{slenderness})},
             uniform(generator),
             0.5 * lasts * slenderness * uniform(generator) * (1 - std::sqrt(restitution)),
             uniform(generator) < 0.5 ? -1.0 : 1.0};
@@ -180,7 +182,8 @@ void expect_that_what_is_closed_dies_out_within_an_interval()
         for (int sample = 0; sample < 2; ++sample) {
             const double v = directions == Directions::both ? -0.95 + 3 * uniform(generator) : 0;
             vertical.push_back(v);
-            horizontal.push_back((1 + v) * uplift_acceleration<theory>(slenderness) *
+            horizontal.push_back((1 + v) *
+                                 Equations<theory>::uplift_acceleration(BlockSide{slenderness}) *
                                  (-1.1 + 2.2 * uniform(generator)));
         }
         const Accelerogram record = accelerogram(

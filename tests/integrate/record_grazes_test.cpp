@@ -29,8 +29,9 @@ Rocking<double> motion_at(double phase, const Graze& graze)
     const Digits50 frequency(graze.frequency);
     const Ramp<Digits50> push{-(threshold + Digits50(graze.excess)),
                               Digits50(graze.change) * frequency};
-    const auto series = rocking_series<theory, 30>(Digits50(Digits50(graze.distance) * alpha),
-                                                   Digits50(0), alpha, push, Digits50(1));
+    const auto series = Equations<theory>::template series<30>(
+        BlockSide{alpha}, Digits50(Digits50(graze.distance) * alpha), Digits50(0), push,
+        Digits50(1));
     const Digits50 time = (Digits50(phase) - Digits50(graze.when)) / frequency;
     return {phase, double(value_of_series(series.tilt, time)),
             double(value_of_series(series.rate, time)), 1};

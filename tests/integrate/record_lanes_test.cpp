@@ -45,7 +45,7 @@ Lanes packed(const Points& points, const Member& member)
 
 double uplift_of(const RecordPoint& point)
 {
-    return uplift_acceleration<Theory::nonlinear>(point.block.slenderness);
+    return Equations<Theory::nonlinear>::uplift_acceleration(point.block);
 }
 
 template <Directions directions>

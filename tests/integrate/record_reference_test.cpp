@@ -187,7 +187,8 @@ private:
         const Digits50 turned =
             alpha_ + (theory == Theory::linear ? Digits50(state.side * a_ / down_)
                                                : Digits50(atan2(state.side * a_, down_)));
-        return RockingArc<theory, Digits50>(state, turned, conserved_q<theory>(state, turned));
+        return RockingArc<theory, Digits50>(state, BlockSide{turned},
+                                            conserved_q<theory>(state, BlockSide{turned}));
     }
 
     State<Digits50> unscaled(const State<Digits50>& state) const

@@ -208,8 +208,8 @@ TEST(RecordStage, SamplesOfAPulseConvergeToThePulseWithOrderTwo)
                 samples.push_back(std::sin(2 * pi<double>() * i / intervals));
             }
             const RecordPoint sampled{accelerogram(samples), point.block(),
-                                      point.amplitude *
-                                          uplift_acceleration<theory>(point.slenderness),
+                                      point.amplitude * Equations<theory>::uplift_acceleration(
+                                                            BlockSide{point.slenderness}),
                                       point.frequency * intervals / (2 * pi<double>())};
             const auto end = run_record<theory, Directions::horizontal, 20>(sampled, 1e-14);
             EXPECT_EQ(end.impacts, pulse.impacts);

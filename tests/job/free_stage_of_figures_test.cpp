@@ -25,7 +25,7 @@ Region region_of_free_stage(const State<double>& state, const Block<double>& blo
                                       : (to_plus ? Region::U1_plus : Region::U1_minus);
     }
     // A safe block is in a blade if it would overturn without the loss at its first impact.
-    const bool in_blade = conserved_q<Theory::nonlinear>(state, block.slenderness) < 0;
+    const bool in_blade = conserved_q<Theory::nonlinear>(state, block) < 0;
     return !in_blade ? Region::S : state.side * state.rate > 0 ? Region::S_plus : Region::S_minus;
 }
 

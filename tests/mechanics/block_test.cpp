@@ -1,4 +1,4 @@
-#include "overturn/mechanics/block.hpp"
+#include "overturn/mechanics/theory/theories.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,12 +20,14 @@ TEST(LargestRestitution, VanishesWhereEquation17LosesItsMeaning)
 TEST(RockingAcceleration, OfAnUprightBlockIsZeroExactlyAtTheUpliftAcceleration)
 {
     for (const double slenderness : {0.01, 0.17, 0.45, 1.2}) {
-        const double push = -uplift_acceleration<Theory::nonlinear>(slenderness);
+        const double push =
+            -Equations<Theory::nonlinear>::uplift_acceleration(BlockSide{slenderness});
         // tan * cos - sin: two roundings of sin(alpha).
-        EXPECT_NEAR(rocking_acceleration<Theory::nonlinear>(0.0, slenderness, push), 0,
-                    4.5e-16 * slenderness);
-        EXPECT_EQ(rocking_acceleration<Theory::linear>(
-                      0.0, slenderness, -uplift_acceleration<Theory::linear>(slenderness)),
+        EXPECT_NEAR(Equations<Theory::nonlinear>::acceleration(BlockSide{slenderness}, 0.0, push),
+                    0, 4.5e-16 * slenderness);
+        EXPECT_EQ(Equations<Theory::linear>::acceleration(
+                      BlockSide{slenderness}, 0.0,
+                      -Equations<Theory::linear>::uplift_acceleration(BlockSide{slenderness})),
                   0);
     }
 }
@@ -39,8 +41,8 @@ TEST(RockingAcceleration, IsEquation47OnBothSides)
             const double sign = theta > 0 ? 1 : -1;
             const double y = slenderness * sign - theta;
             const double exact = -(std::sin(y) + ground * std::cos(y));
-            const double ours = rocking_acceleration<Theory::nonlinear>(std::abs(theta),
-                                                                        slenderness, sign * ground);
+            const double ours = Equations<Theory::nonlinear>::acceleration(
+                BlockSide{slenderness}, std::abs(theta), sign * ground);
             EXPECT_NEAR(sign * ours, exact, 1e-15 * 5); // three roundings of numbers below 4
         }
     }
@@ -49,8 +51,10 @@ TEST(RockingAcceleration, IsEquation47OnBothSides)
 TEST(RockingAcceleration, ApproachesTheLinearTheoryAsTheSquareOfTheSlenderness)
 {
     const auto gap = [](double size) {
-        return std::abs(rocking_acceleration<Theory::nonlinear>(0.3 * size, size, 0.5 * size) -
-                        rocking_acceleration<Theory::linear>(0.3 * size, size, 0.5 * size)) /
+        return std::abs(Equations<Theory::nonlinear>::acceleration(BlockSide{size}, 0.3 * size,
+                                                                   0.5 * size) -
+                        Equations<Theory::linear>::acceleration(BlockSide{size}, 0.3 * size,
+                                                                0.5 * size)) /
                size;
     };
     EXPECT_NEAR(gap(1e-2) / gap(1e-3), 100, 1); // the next term is 1e-4 of it; first order gives 10

@@ -56,7 +56,8 @@ TEST(ContactForce, IsThatOfTheSecondDerivativeOfThePlaceOfTheCentreOfMass)
         const T slenderness = 0.4;
         const Moving<T> now = random_motion<T>(generator);
         const T h(1e-12);
-        const T pull = rocking_acceleration<Theory::nonlinear>(now.tilt, slenderness, now.push);
+        const T pull =
+            Equations<Theory::nonlinear>::acceleration(BlockSide{slenderness}, now.tilt, now.push);
         const auto y_at = [&](const T& time) -> T {
             return slenderness - (now.tilt + now.rate * time + pull * time * time / 2);
         };
@@ -79,7 +80,8 @@ TEST(ContactForce, HasTheDerivativesOfItsDifferenceQuotients)
         const ContactSide<T> side = random_side<T>(generator);
         const T slenderness = 0.3;
         const Moving<T> now = random_motion<T>(generator);
-        const T pull = rocking_acceleration<Theory::nonlinear>(now.tilt, slenderness, now.push);
+        const T pull =
+            Equations<Theory::nonlinear>::acceleration(BlockSide{slenderness}, now.tilt, now.push);
         const auto at = [&](const T& time) {
             Moving<T> then = now;
             then.tilt += now.rate * time;
@@ -205,7 +207,8 @@ TEST(ContactForce, OnAnArcIsThatOfTheSameMotion)
         const double slenderness = 0.1 + 0.5 * uniform(generator);
         const double tilt = 1.2 * uniform(generator);
         const double rate = 2 * uniform(generator) - 1;
-        const double c = separatrix_rate<Theory::nonlinear>(tilt, slenderness);
+        const double c =
+            Equations<Theory::nonlinear>::separatrix_rate(BlockSide{slenderness}, tilt);
         const auto arc = force_on_arc(side, (c - rate) * (c + rate), slenderness - tilt);
         const auto force =
             force_while_rocking(side, slenderness, MovingBlock<double, double>{tilt, rate, 0, 0});
@@ -357,7 +360,8 @@ TEST(FreeContact, IsThatOfFineSamplesOfTheMotion)
             double limit = 0;
             for (const double side : {1.0, -1.0}) {
                 const double alpha = seen_from(side, block).slenderness;
-                const double top = separatrix_rate<Theory::nonlinear>(0.0, alpha);
+                const double top =
+                    Equations<Theory::nonlinear>::separatrix_rate(BlockSide{alpha}, 0.0);
                 limit = std::max(limit,
                                  force_on_arc(sides.seen_from(side), top * top, alpha).friction());
             }

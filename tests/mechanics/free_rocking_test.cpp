@@ -149,8 +149,8 @@ TEST(FreeRocking, ObeysItsEquationAndConservesQ)
     for (const Start& start : random_starts(50)) {
         const Digits50 alpha = start.block.slenderness;
         const State<Digits50> begin = in_digits(start.state);
-        const Digits50 q = conserved_q<Theory::nonlinear>(begin, alpha);
-        const RockingArc<Theory::nonlinear, Digits50> arc(begin, alpha, q);
+        const Digits50 q = conserved_q<Theory::nonlinear>(begin, BlockSide{alpha});
+        const RockingArc<Theory::nonlinear, Digits50> arc(begin, BlockSide{alpha}, q);
         const Digits50 ends = std::min<Digits50>(arc.time_to_impact(), arc.time_to_fall());
         const Digits50 time = std::min<Digits50>(ends, 5) / 3 + 2 * h;
         const State<Digits50> before = arc.at(Digits50(time - h));
@@ -159,7 +159,7 @@ TEST(FreeRocking, ObeysItsEquationAndConservesQ)
         EXPECT_LT(abs(before.tilt - 2 * now.tilt + after.tilt + h * h * sin(alpha - now.tilt)),
                   h * h * 1e-20);
         EXPECT_LT(abs((after.tilt - before.tilt) / (2 * h) - now.rate), 1e-20);
-        EXPECT_LT(abs(conserved_q<Theory::nonlinear>(now, alpha) - q), 1e-40);
+        EXPECT_LT(abs(conserved_q<Theory::nonlinear>(now, BlockSide{alpha}) - q), 1e-40);
     }
 }
 
@@ -176,7 +176,8 @@ TEST(RockingArc, EqualsThePapersInJacobiFunctionsOfARealModulus)
         // Relative accuracy of the distance of the modulus from 1 in the digits of the modulus.
         const Digits50 modulus = sqrt(1 - kappa * kappa);
         const Digits50 tolerance = 1e-48 / (kappa * kappa);
-        const RockingArc<Theory::nonlinear, Digits50> arc(turned, alpha, 4 * kappa * kappa);
+        const RockingArc<Theory::nonlinear, Digits50> arc(turned, BlockSide{alpha},
+                                                          4 * kappa * kappa);
         for (const char* share : {"0.1", "0.5", "0.99"}) {
             const Digits50 time = Digits50(share) * arc.time_to_impact();
             EXPECT_LT(abs(sin((alpha - arc.at(time).tilt) / 2) - kappa * jacobi_nd(modulus, time)),
@@ -194,7 +195,7 @@ TEST(RockingArc, OfTheLinearTheoryHasTheHalfPeriodOfAHyperbolicTangent)
     for (const double v : {1e-8, 0.1, 0.29}) {
         const State<double> upright{0, v, 1};
         const RockingArc<Theory::linear, double> arc(
-            upright, 0.3, double(conserved_q<Theory::linear>(upright, 0.3)));
+            upright, BlockSide{0.3}, double(conserved_q<Theory::linear>(upright, BlockSide{0.3})));
         const double half_period =
             2 * std::atanh(v / 0.3); // of a closed form, at x / (1 - x^2) eps
         EXPECT_NEAR(arc.time_to_impact(), half_period, 1e-14 * half_period);
@@ -207,7 +208,7 @@ TEST(RockingArc, IsAParabolaIfTheBlockHardlyRises)
     const double v = 1e-12;
     const State<double> upright{0, v, 1};
     const RockingArc<Theory::nonlinear, double> arc(
-        upright, 0.3, double(conserved_q<Theory::nonlinear>(upright, 0.3)));
+        upright, BlockSide{0.3}, double(conserved_q<Theory::nonlinear>(upright, BlockSide{0.3})));
     const double pull = std::sin(0.3);
     EXPECT_NEAR(arc.time_to_impact(), 2 * v / pull, 1e-11 * v);
     for (const double share : {0.1, 0.5, 0.9}) {
@@ -222,21 +223,24 @@ TEST(RockingArc, StaysOnTheEdgeForeverOnTheSeparatrix)
     const Digits50 alpha("0.3");
     const Digits50 tilt("0.1");
     const State<Digits50> rising{tilt, 2 * sin((alpha - tilt) / 2), 1};
-    const RockingArc<Theory::nonlinear, Digits50> arc(rising, alpha, 0);
+    const RockingArc<Theory::nonlinear, Digits50> arc(rising, BlockSide{alpha}, 0);
     EXPECT_TRUE(isinf(arc.time_to_impact()));
     EXPECT_TRUE(isinf(arc.time_to_fall()));
     EXPECT_LT(abs(arc.at(Digits50(80)).tilt - alpha), 1e-34); // exp(-80)
     // It is the limit from both sides. After 3/p, the effect of q is about q e^3 / 4.
     for (const double q : {1e-30, -1e-30}) {
-        const RockingArc<Theory::nonlinear, Digits50> beside(rising, alpha, q);
+        const RockingArc<Theory::nonlinear, Digits50> beside(rising, BlockSide{alpha}, q);
         EXPECT_LT(abs(beside.at(Digits50(3)).tilt - arc.at(Digits50(3)).tilt), 1e-28);
         EXPECT_NE(isinf(beside.time_to_impact()), isinf(beside.time_to_fall()));
     }
     // Away from the edge, on either side, it strikes the ground or overturns in a finite time.
     const State<Digits50> sinking{tilt, -rising.rate, 1};
-    EXPECT_LT((RockingArc<Theory::nonlinear, Digits50>(sinking, alpha, 0).time_to_impact()), 2);
+    EXPECT_LT(
+        (RockingArc<Theory::nonlinear, Digits50>(sinking, BlockSide{alpha}, 0).time_to_impact()),
+        2);
     const State<Digits50> beyond{Digits50("0.5"), 2 * sin((Digits50("0.5") - alpha) / 2), 1};
-    EXPECT_LT((RockingArc<Theory::nonlinear, Digits50>(beyond, alpha, 0).time_to_fall()), 4);
+    EXPECT_LT((RockingArc<Theory::nonlinear, Digits50>(beyond, BlockSide{alpha}, 0).time_to_fall()),
+              4);
 }
 
 TEST(FreeRocking, HasTheOutcomeOfTheRegion)

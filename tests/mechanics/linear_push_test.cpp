@@ -1,5 +1,5 @@
 // The series of the motion under a push that is linear in time, with and without vertical motion.
-#include "overturn/mechanics/rocking_series.hpp"
+#include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/number/digits50.hpp"
 #include "support/observed_order.hpp"
 
@@ -52,8 +52,8 @@ Start<Digits50> in_digits(const Start<double>& start)
 template <Theory theory, int order, class T, class Push>
 RockingSeries<order, T> series_under(const Push& push, const Start<T>& start)
 {
-    return rocking_series<theory, order>(start.tilt, start.rate, start.slenderness, push,
-                                         start.unit);
+    return Equations<theory>::template series<order>(BlockSide{start.slenderness}, start.tilt,
+                                                     start.rate, push, start.unit);
 }
 
 template <class T, std::size_t tilts, class Series>
@@ -120,8 +120,9 @@ Digits50 residual(const Start<Digits50>& start, const Digits50& t)
     const auto series = series_under<theory, order>(start.ground, start);
     return value_and_slope(series.rate, t)[1] -
            start.unit * start.unit *
-               rocking_acceleration<theory>(value_and_slope(series.tilt, t)[0], start.slenderness,
-                                            start.ground.at(t));
+               Equations<theory>::acceleration(BlockSide{start.slenderness},
+                                               value_and_slope(series.tilt, t)[0],
+                                               start.ground.at(t));
 }
 
 TYPED_TEST(SeriesUnderALinearPush, SolvesTheEquationWithVerticalMotionToItsOrder)

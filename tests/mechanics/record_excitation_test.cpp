@@ -175,7 +175,7 @@ TEST(RecordExcitation, VerticalMotionChangesTheThreshold)
     const auto expect_threshold = [&]<Theory theory>() {
         for (int i = 0; i < 200; ++i) {
             RecordPoint point = random_record_point(generator, 2, Directions::both);
-            const double lifting = uplift_acceleration<theory>(point.block.slenderness);
+            const double lifting = Equations<theory>::uplift_acceleration(point.block);
             const double v = point.record.upwards()[1];
             const double a = std::abs(point.record.horizontal()[1]);
             if (a <= v * lifting) {

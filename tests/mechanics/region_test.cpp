@@ -51,14 +51,14 @@ TEST(Separatrix, HasTheSlopeOfItsRate)
     const double h = 1e-5;
     for (const double tilt : {0.0, 0.1, 0.3, 0.5}) {
         const auto difference = [&]<Theory theory>() {
-            return (separatrix_rate<theory>(tilt + h, 0.3) -
-                    separatrix_rate<theory>(tilt - h, 0.3)) /
+            return (Equations<theory>::separatrix_rate(BlockSide{0.3}, tilt + h) -
+                    Equations<theory>::separatrix_rate(BlockSide{0.3}, tilt - h)) /
                    (2 * h);
         };
         // Central differences: h^2 / 6 times a third derivative below 1/4, and round-off / h.
-        EXPECT_NEAR((separatrix_slope<Theory::nonlinear>(tilt, 0.3)),
+        EXPECT_NEAR((Equations<Theory::nonlinear>::separatrix_slope(BlockSide{0.3}, tilt)),
                     difference.template operator()<Theory::nonlinear>(), 1e-10);
-        EXPECT_NEAR((separatrix_slope<Theory::linear>(tilt, 0.3)),
+        EXPECT_NEAR((Equations<Theory::linear>::separatrix_slope(BlockSide{0.3}, tilt)),
                     difference.template operator()<Theory::linear>(), 1e-10);
     }
 }

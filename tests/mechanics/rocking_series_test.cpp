@@ -1,4 +1,4 @@
-#include "overturn/mechanics/rocking_series.hpp"
+#include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/number/digits50.hpp"
 #include "support/every_pulse.hpp"
 #include "support/observed_order.hpp"
@@ -68,8 +68,8 @@ RockingSeries<order, T> series_of(PulseKind pulse, const Start<T>& start)
 {
     const auto push = pulse_motion<T>(pulse).template series<order>(
         start.acceleration, start.phase, T(start.frequency * start.unit));
-    return rocking_series<theory, order>(start.tilt, T(start.rate * start.unit), start.slenderness,
-                                         push, start.unit);
+    return Equations<theory>::template series<order>(BlockSide{start.slenderness}, start.tilt,
+                                                     T(start.rate * start.unit), push, start.unit);
 }
 
 /// sum of c[k] t^k, term by term.
@@ -105,9 +105,9 @@ Digits50 residual(PulseKind pulse, const Start<Digits50>& start, const Digits50&
     const Digits50 push = start.acceleration *
                           value_of_pulse(pulse_motion<Digits50>(pulse),
                                          Digits50(start.phase + start.frequency * start.unit * t));
-    return slope(series.rate, t) -
-           start.unit * start.unit *
-               rocking_acceleration<theory>(sum(series.tilt, t), start.slenderness, push);
+    return slope(series.rate, t) - start.unit * start.unit *
+                                       Equations<theory>::acceleration(BlockSide{start.slenderness},
+                                                                       sum(series.tilt, t), push);
 }
 
 using SeriesUnderEveryPulse = EveryPulse;
@@ -191,10 +191,10 @@ TYPED_TEST(SeriesOfEveryTheory, IsReversedInTimeWithThePush)
                                .series<20>(start.acceleration, start.phase, w);
         const auto back = pulse_motion<double>(PulseKind::one_sine)
                               .series<20>(start.acceleration, start.phase, -w);
-        const auto later = rocking_series<TypeParam::value, 20>(start.tilt, rate, start.slenderness,
-                                                                forth, start.unit);
-        const auto earlier = rocking_series<TypeParam::value, 20>(
-            start.tilt, -rate, start.slenderness, back, start.unit);
+        const auto later = Equations<TypeParam::value>::template series<20>(
+            BlockSide{start.slenderness}, start.tilt, rate, forth, start.unit);
+        const auto earlier = Equations<TypeParam::value>::template series<20>(
+            BlockSide{start.slenderness}, start.tilt, -rate, back, start.unit);
         for (std::size_t k = 0; k < later.tilt.size(); ++k) {
             // Only signs change: no other bit may change.
             ASSERT_EQ(earlier.tilt[k], k % 2 == 0 ? later.tilt[k] : -later.tilt[k]) << k;

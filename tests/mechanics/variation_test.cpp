@@ -1,3 +1,4 @@
+#include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/mechanics/variation.hpp"
 
 #include "overturn/number/digits50.hpp"
@@ -39,14 +40,14 @@ TEST(RockingStiffness, IsTheSlopeOfTheAcceleration)
     const Digits50 small = 1e-12;
     for (const double tilt : {0.0, 0.1, 0.5, 1.2}) {
         const auto acceleration = [&](const Digits50& at) {
-            return rocking_acceleration<Theory::nonlinear>(at, slenderness, push);
+            return Equations<Theory::nonlinear>::acceleration(BlockSide{slenderness}, at, push);
         };
         const Digits50 slope =
             (acceleration(tilt + small) - acceleration(tilt - small)) / (2 * small);
         // A central difference is off by small^2 / 6 times a third derivative of order 1.
-        EXPECT_LT(
-            abs(slope - rocking_stiffness<Theory::nonlinear>(Digits50(tilt), slenderness, push)),
-            1e-23);
+        EXPECT_LT(abs(slope - Equations<Theory::nonlinear>::stiffness(BlockSide{slenderness},
+                                                                      Digits50(tilt), push)),
+                  1e-23);
     }
 }
 

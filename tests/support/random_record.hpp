@@ -28,11 +28,13 @@ inline Accelerogram accelerogram(std::vector<double> horizontal, std::vector<dou
 template <Theory theory, Directions directions, class S = double>
 RecordExcitation<S, directions> excitation_of(const RecordPoint& point)
 {
-    return {.motion = record_motion<S>(point.record),
-            .acceleration = S(point.scale),
-            .frequency = S(point.frequency),
-            .to_plus = uplift_acceleration<theory>(S(point.block.slenderness)),
-            .to_minus = uplift_acceleration<theory>(S(point.block.other.slenderness))};
+    return {
+        .motion = record_motion<S>(point.record),
+        .acceleration = S(point.scale),
+        .frequency = S(point.frequency),
+        .to_plus = Equations<theory>::uplift_acceleration(BlockSide{S(point.block.slenderness)}),
+        .to_minus =
+            Equations<theory>::uplift_acceleration(BlockSide{S(point.block.other.slenderness)})};
 }
 
 /// From none of the samples to most of them lift a block with this threshold.

@@ -302,7 +302,7 @@ RecordLine random_record_line(std::mt19937_64& generator, Directions directions)
     const RecordPoint point = random_record_point(generator, 300, directions);
     Scene scene;
     scene.records = {std::make_shared<const Accelerogram>(point.record)};
-    const double threshold = uplift_acceleration<Theory::nonlinear>(point.block.slenderness);
+    const double threshold = Equations<Theory::nonlinear>::uplift_acceleration(point.block);
     return {scene,
             {.point = {point.block, 1, point.frequency}},
             point.record.lifting_scale({threshold, threshold})};

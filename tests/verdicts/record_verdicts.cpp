@@ -50,7 +50,7 @@ public:
         }
         point.block.restitution = uniform() < 0.05 ? 1 : 0.3 + 0.7 * uniform();
         const double most =
-            std::min(6 * uplift_acceleration<Theory::nonlinear>(point.block.slenderness) /
+            std::min(6 * Equations<Theory::nonlinear>::uplift_acceleration(point.block) /
                          of_record.record.peak(),
                      0.9 * of_record.record.free_fall_scale());
         std::vector<Point> points(points_of_scene, point);

@@ -93,7 +93,7 @@ public:
     {
         const S push = push_.at(time);
         if constexpr (sines == Sines::overturn) {
-            return rocking_acceleration<Theory::nonlinear>(tilt, slenderness_, push);
+            return Equations<Theory::nonlinear>::acceleration(side_, tilt, push);
         } else {
             const S y = slenderness_ - tilt;
             return -(std::sin(y) + push * std::cos(y));
@@ -199,8 +199,8 @@ auto with_excitation(const Scene& scene, const Point& point, const Visitor& visi
             .motion = record_motion<S>(*scene.records.front()),
             .acceleration = S(point.amplitude),
             .frequency = S(point.frequency),
-            .to_plus = uplift_acceleration<Theory::nonlinear>(block.slenderness),
-            .to_minus = uplift_acceleration<Theory::nonlinear>(block.slenderness)});
+            .to_plus = Equations<Theory::nonlinear>::uplift_acceleration(block),
+            .to_minus = Equations<Theory::nonlinear>::uplift_acceleration(block)});
     }
     return visit(pulse_excitation<Theory::nonlinear>(pulse_motion<S>(PulseKind::one_sine), block,
                                                      S(point.amplitude), S(point.frequency)));

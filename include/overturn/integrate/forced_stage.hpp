@@ -51,13 +51,14 @@ struct Taylor {
 template <class Method, Theory theory, Outputs outputs, Number T,
           class Excitation = PulseExcitation<T>>
 class ForcedStage {
+    static_assert(RockingTheory<theory>);
     using S = scalar_t<T>;
     using E = estimate_t<T>;
     using Mask = mask_t<T>;
     static constexpr bool is_recorded = !std::same_as<Excitation, PulseExcitation<T>>;
     // 50 digits settle verdicts only.
     static constexpr bool may_watch =
-        outputs.peak && theory == Theory::nonlinear && std::same_as<scalar_t<E>, double>;
+        outputs.peak && Equations<theory>::has_contact_forces && std::same_as<scalar_t<E>, double>;
 
 public:
     /// uncertain_impact: used only if the error is an output. contact: to watch it, only with the
@@ -171,7 +172,7 @@ public:
         requires may_watch
     {
         const State<T>& state = end_of_run_.state;
-        const Mask returns = state.rate < separatrix_rate<theory>(state.tilt, block_.slenderness);
+        const Mask returns = state.rate < Equations<theory>::separatrix_rate(block_, state.tilt);
         return watch_->demand(end_of_run_.fell || !returns);
     }
 
@@ -193,8 +194,8 @@ private:
     {
         const Block<T> other = block_.turned();
         const auto pull_at = [&](const T& phase, const Block<T>& block, const T& side) -> T {
-            const T pull = -rocking_acceleration<theory>(T(0), block.slenderness,
-                                                         side * excitation_.ground(phase));
+            const T pull =
+                -Equations<theory>::acceleration(block, T(0), side * excitation_.ground(phase));
             return select<T>(lanes, pull, 1);
         };
         // On each side, the flights are shorter by the factor r from one to the next.
@@ -286,7 +287,7 @@ private:
     // Not inlined: these would change what the compiler does with symmetric blocks.
     [[gnu::noinline, gnu::cold]] static T side_of_higher_barrier(const Block<T>& block)
     {
-        const T largest = separatrix_rate<theory>(T(0), block.slenderness);
+        const T largest = Equations<theory>::separatrix_rate(block, T(0));
         return select<T>(barrier_ratio<theory>(largest, block) > 1, -1, 1);
     }
 
@@ -353,7 +354,7 @@ private:
         // For filling, which is for pulses only.
         if constexpr (outputs.peak && !is_recorded) {
             const T push = now_.side * excitation_.ground(now_.phase);
-            const Mask outward = rocking_acceleration<theory>(T(0), block_.slenderness, push) > 0;
+            const Mask outward = Equations<theory>::acceleration(block_, T(0), push) > 0;
             T& softest = end_of_run_.softest_impact;
             softest =
                 select<T>(lanes && !rests && outward && -now_.rate < softest, -now_.rate, softest);

@@ -64,8 +64,8 @@ public:
                      const Mask& lanes, const Mask& rests)
     {
         const auto push = now.side * excitation.ground(now.phase);
-        const T before = rocking_acceleration<theory>(T(0), block.slenderness, push);
-        const T after = rocking_acceleration<theory>(T(0), block.other.slenderness, T(-1) * push);
+        const T before = Equations<theory>::acceleration(block, T(0), push);
+        const T after = Equations<theory>::acceleration(block.other, T(0), T(-1) * push);
         const T speed = select<T>(lanes && now.rate < 0, -now.rate, 1);
         const T square_error = bound(before + before, speed + speed);
         const T share = select<T>(rests, 64, 4);
@@ -86,7 +86,7 @@ public:
     {
         const Mask& fell = end.fell;
         const T radius = bound(1, 0);
-        const T largest = separatrix_rate<theory>(T(0), block.slenderness);
+        const T largest = Equations<theory>::separatrix_rate(block, T(0));
         const Distance standing = distance_to_separatrix(block, now, radius, largest);
         // An impact on this side i changes the margin by the factor sqrt(r W_i / W_j), one on the
         // other side by sqrt(r W_j / W_i).
@@ -100,7 +100,7 @@ public:
         // For a fall at the speed v with the acceleration a, v^2 changes by
         // 2 v d(rate) - 2 a d(tilt).
         const auto push = now.side * excitation.ground(now.phase);
-        const T pull = -rocking_acceleration<theory>(now.tilt, block.slenderness, push);
+        const T pull = -Equations<theory>::acceleration(block, now.tilt, push);
         const T lying =
             (bound(pull + pull, now.rate + now.rate) + roundings() * now.rate * now.rate) /
             (largest * largest);
@@ -141,7 +141,7 @@ private:
     {
         const SafeRates<T> safe = safe_rates<theory>(now.tilt, block);
         const ImpactLimit<T> inward = safe.inward();
-        const T slope = separatrix_slope<theory>(now.tilt, block.slenderness);
+        const T slope = Equations<theory>::separatrix_slope(block, now.tilt);
         const auto round_off = [&](const T& limit) -> T {
             return roundings() * (abs(now.rate) + abs(limit)) / largest;
         };

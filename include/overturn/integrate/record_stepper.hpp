@@ -44,7 +44,7 @@ public:
 
     void see_side(const Block<T>& block, const T& frequency)
     {
-        slenderness_ = block.slenderness;
+        side_ = block;
         excitation_.frequency = frequency;
         // Every sample of a record ends a step. If the reciprocal were rounded, the rate would
         // change by the same share of epsilon in each of thousands of steps, and the error would
@@ -53,7 +53,7 @@ public:
         time_ = {1 / fastest, fastest};
         samples_per_unit_ = frequency * time_.unit;
         units_per_sample_ = 1 / samples_per_unit_;
-        most_allowed_ = estimate_of(tolerance_ * slenderness_ * time_.unit);
+        most_allowed_ = estimate_of(tolerance_ * side_.slenderness * time_.unit);
     }
 
     void lift(const Rocking<T>&, const Mask&) {}
@@ -65,8 +65,8 @@ public:
         const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
         const auto push = excitation_.template series<1>(now.side * excitation_.acceleration,
                                                          now.phase, samples_per_unit_);
-        const auto known = rocking_series<theory, known_order>(now.tilt, now.rate * time_.unit,
-                                                               slenderness_, push, time_.unit);
+        const auto known = Equations<theory>::template series<known_order>(
+            side_, now.tilt, now.rate * time_.unit, push, time_.unit);
         decltype(auto) series = leading<order>(known);
         const T left = (end_of_piece - now.phase) * units_per_sample_;
         T h = longest_step(now, series, left, active);
@@ -103,8 +103,8 @@ public:
             const TaylorStep<known_order, T> step{known, time_, h,
                                                   lesser<T>(now.tilt, end.tilt) - aside, highest};
             const std::array pushes{push.at(T(0)), push.at(h * 0.5), push.at(h)};
-            end.errors = errors_.of(step, slenderness_, pushes, end,
-                                    error_of_estimates(series, estimate_of(h)));
+            end.errors =
+                errors_.of(step, side_, pushes, end, error_of_estimates(series, estimate_of(h)));
         }
         if constexpr (outputs.peak) {
             const auto& rough = estimate_of(series);
@@ -186,7 +186,7 @@ private:
         const T stiffness = square * (gravity + pushed);
         // |y| <= 1 would do for the sine; this is closer, and it also holds in the linear theory.
         const T highest = fma(fma(stiffness, h, speed), h, series.tilt[0]);
-        const T farthest = greater<T>(slenderness_, highest - slenderness_);
+        const T farthest = greater<T>(side_.slenderness, highest - side_.slenderness);
         const T acceleration = square * fma(gravity, farthest, pushed);
         T change = abs(horizontal.slope);
         if constexpr (has_gravity<std::remove_cvref_t<decltype(push)>>) {
@@ -213,7 +213,7 @@ private:
                              const Mask& suspect) const
     {
         const T h = meeting.time;
-        const T noise = dip_of_round_off(slenderness_, h * time_.unit);
+        const T noise = dip_of_round_off(side_.slenderness, h * time_.unit);
         const T& start = series.rate[0];
         const StepMotion<T> end{meeting.tilt, meeting.rate, slope_of_series(series.rate, h)};
         // A function is nowhere larger than the mean of its values at both ends and of h / 2 times
@@ -294,7 +294,7 @@ private:
         });
     }
 
-    T slenderness_;
+    BlockSide<T> side_;
     Excitation excitation_;
     const T tolerance_;
     TimeUnit<T> time_; // a power of two: 1/p, or about a sample if that is shorter

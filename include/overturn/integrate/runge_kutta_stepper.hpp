@@ -32,13 +32,13 @@ public:
     /// Before lift() or turn().
     void see_side(const Block<T>& block, const T& frequency)
     {
-        slenderness_ = block.slenderness;
+        side_ = block;
         excitation_.frequency = frequency;
         const T fastest = select<T>(frequency > 1, frequency, 1);
         first_step_ = step_error_power(tolerance_) / fastest;
         if (is_wavelet_) {
             longest_seen_ = T(longest_angle) / frequency;
-            const T negligible = tolerance_ * T(S(1) / 128) * slenderness_;
+            const T negligible = tolerance_ * T(S(1) / 128) * side_.slenderness;
             tail_end_ =
                 end_of_tail(excitation_.motion.pulse,
                             rough_log2(negligible) - rough_log2(abs(excitation_.acceleration)));
@@ -55,7 +55,7 @@ public:
     void turn(const Rocking<T>& now, const Mask& lanes)
     {
         const T push = now.side * excitation_.ground(now.phase);
-        const T acceleration = rocking_acceleration<theory>(now.tilt, slenderness_, push);
+        const T acceleration = Equations<theory>::acceleration(side_, now.tilt, push);
         acceleration_ = select<T>(lanes, acceleration, acceleration_);
         if constexpr (outputs.error) {
             remember(sample(now.side, now.tilt, now.rate, now.phase, now.phase), lanes);
@@ -165,7 +165,7 @@ private:
                 const T phase =
                     fma(T(DormandPrince::node[stage].template in<S>()), phase_step, now.phase);
                 const T push = now.side * (excitation_.acceleration * formula.value(phase));
-                return rocking_acceleration<theory>(tilt, slenderness_, push);
+                return Equations<theory>::acceleration(side_, tilt, push);
             });
         });
     }
@@ -192,7 +192,7 @@ private:
     /// bounces would propagate this error.
     T relative_error(const Step<T>& step, const T& h) const
     {
-        const T& alpha = slenderness_;
+        const T& alpha = side_.slenderness;
         const T tilt = abs(step.end.position);
         const T rate = abs(step.end.rate);
         const T size = lesser<T>(tilt + rate, alpha);
@@ -218,12 +218,9 @@ private:
     {
         const auto push = excitation_.motion.template series<2>(side * excitation_.acceleration,
                                                                 phase, excitation_.frequency, on);
-        const T stiffness = rocking_stiffness<theory>(tilt, slenderness_, push[0]);
-        T lever(1); // of the push
-        if constexpr (theory == Theory::nonlinear) {
-            lever = sine_and_cosine(slenderness_ - tilt).cosine;
-        }
-        return {rocking_acceleration<theory>(tilt, slenderness_, push[0]),
+        const T stiffness = Equations<theory>::stiffness(side_, tilt, push[0]);
+        const T lever = Equations<theory>::lever(side_, tilt);
+        return {Equations<theory>::acceleration(side_, tilt, push[0]),
                 fma(stiffness, rate, -push[1] * lever), stiffness};
     }
 
@@ -299,7 +296,7 @@ private:
                 .tilt = two * fma(embedded_share_, abs(step.position_error), tilt_error),
                 .rate = fma(two, fma(embedded_share_, abs(step.rate_error), rate_error), unknown),
                 .acceleration = last.acceleration,
-                .turning_tilt = turning_tilt<T>(slenderness_, turns, lower_bound(tilt),
+                .turning_tilt = turning_tilt<T>(side_.slenderness, turns, lower_bound(tilt),
                                                 upper_bound(tilt), tilt_at_turn)};
     }
 
@@ -307,7 +304,7 @@ private:
     /// step ends at it.
     Mask find_event(const StepMotion<T>& start, const Step<T>& step, const T& h, const Mask& lanes)
     {
-        const T noise = dip_of_round_off(slenderness_, h);
+        const T noise = dip_of_round_off(side_.slenderness, h);
         const Quintic<T> tilt = dense_output(start, step.end, h);
         const Mask suspect =
             lanes && (lower_bound(tilt) < -noise || T(pi<S>() / 2) - upper_bound(tilt) < -noise);
@@ -324,7 +321,7 @@ private:
         return event;
     }
 
-    T slenderness_;
+    BlockSide<T> side_;
     PulseExcitation<T> excitation_;
     const bool is_wavelet_;
     const T tolerance_;

@@ -3,7 +3,7 @@
 
 #include "overturn/integrate/power_series.hpp"
 #include "overturn/integrate/rocking_step.hpp"
-#include "overturn/mechanics/rocking_series.hpp"
+#include "overturn/mechanics/theory/theories.hpp"
 
 namespace overturn {
 
@@ -15,10 +15,9 @@ namespace overturn {
 template <int order>
 inline constexpr int last_terms = order < 10 ? 2 : 4;
 
-/// The order to which the series is known if the error is an output. In the linear theory, a term
-/// is almost free.
+/// The order to which the series is known if the error is an output.
 template <int order, Theory theory>
-inline constexpr int order_for_errors = order + (theory == Theory::linear ? 3 : 1);
+inline constexpr int order_for_errors = order + Equations<theory>::terms_for_errors;
 
 /// The unit of time of a series.
 template <Number T>
@@ -68,10 +67,8 @@ public:
     {
         unrolled<last_terms>([&]<int i>() {
             constexpr int k = order + 1 - last_terms + i;
-            E ratio = rough_power_of_two(E(log2_tolerance * E(S(1) / k)));
-            if constexpr (theory == Theory::linear) {
-                ratio = lesser<E>(ratio, E(S(1) / 3));
-            }
+            const E ratio = Equations<theory>::ratio_of_terms(
+                rough_power_of_two(E(log2_tolerance * E(S(1) / k))));
             following_per_[i] = 2 / (1 - ratio);
             unrolled<known_order + 1 - k>(
                 [&]<int>() { following_per_[i] = following_per_[i] * ratio; });
@@ -80,7 +77,7 @@ public:
 
     /// pushes: at the beginning, in the middle and at the end of the step. beyond: a bound of the
     /// contribution of the push to the rate beyond the known series [rad per unit].
-    StepErrors<T> of(const TaylorStep<known_order, T>& step, const T& slenderness,
+    StepErrors<T> of(const TaylorStep<known_order, T>& step, const BlockSide<T>& side,
                      const auto& pushes, const auto& end, const E& beyond) const
     {
         const auto& known = estimate_of(step.known);
@@ -89,7 +86,7 @@ public:
         const E per_time = estimate_of(step.time.per_time);
         const E left_out = truncation_error(known, h, beyond);
         const auto stiffness = [&](const E& tilt, const auto& push) -> E {
-            return rocking_stiffness<theory>(tilt, estimate_of(slenderness), estimate_of(push));
+            return Equations<theory>::stiffness(estimate_of(side), tilt, estimate_of(push));
         };
         decltype(auto) series = leading<order>(step.known);
         const auto& rough = estimate_of(series);
@@ -116,8 +113,8 @@ public:
                 .tilt = left_out * h * E(S(1) / (order + 2)),
                 .rate = fma(left_out, per_time, unknown),
                 .acceleration = acceleration * (per_time * per_time),
-                .turning_tilt =
-                    turning_tilt<T>(slenderness, turns, step.lowest, step.highest, tilt_at_turn)};
+                .turning_tilt = turning_tilt<T>(side.slenderness, turns, step.lowest, step.highest,
+                                                tilt_at_turn)};
     }
 
 private:

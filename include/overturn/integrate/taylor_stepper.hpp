@@ -31,14 +31,14 @@ public:
 
     void see_side(const Block<T>& block, const T& frequency)
     {
-        slenderness_ = block.slenderness;
+        side_ = block;
         excitation_.frequency = frequency;
         const T fastest = select<T>(frequency > 1, frequency, 1);
         time_ = {1 / fastest, fastest};
         phase_per_unit_ = frequency * time_.unit;
-        log2_most_allowed_ = rough_log2(tolerance_ * slenderness_ * time_.unit);
+        log2_most_allowed_ = rough_log2(tolerance_ * side_.slenderness * time_.unit);
         if (is_wavelet_) {
-            const T round_off = T(S(std::numeric_limits<S>::epsilon() / 1024)) * slenderness_;
+            const T round_off = T(S(std::numeric_limits<S>::epsilon() / 1024)) * side_.slenderness;
             lost_ = end_of_tail(excitation_.motion.pulse,
                                 rough_log2(round_off) - rough_log2(abs(excitation_.acceleration)));
         }
@@ -52,8 +52,8 @@ public:
     {
         const auto push =
             excitation_.template series<known_order>(acceleration(now), now.phase, phase_per_unit_);
-        const auto known = rocking_series<theory, known_order>(now.tilt, now.rate * time_.unit,
-                                                               slenderness_, push, time_.unit);
+        const auto known = Equations<theory>::template series<known_order>(
+            side_, now.tilt, now.rate * time_.unit, push, time_.unit);
         decltype(auto) series = leading<order>(known);
         const T longest = longest_step(now, series);
         const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
@@ -64,7 +64,7 @@ public:
         const Mask none = active && !active;
         FirstEvent<T> event{h, none, none};
         const Enclosure<T> bounds = enclosure(series.tilt, h);
-        const T noise = dip_of_round_off(slenderness_, h * time_.unit);
+        const T noise = dip_of_round_off(side_.slenderness, h * time_.unit);
         const Mask suspect = active && may_meet<T>(bounds, noise);
         if (any<T>(suspect)) {
             event = first_event(series, bounds, h, noise, suspect);
@@ -95,7 +95,7 @@ public:
             if (is_wavelet_) {
                 beyond = beyond + estimate_of(left_out_of(push, now.phase, h));
             }
-            end.errors = errors_.of(taken, slenderness_, pushes_at(now, h, end.phase), end, beyond);
+            end.errors = errors_.of(taken, side_, pushes_at(now, h, end.phase), end, beyond);
         } else if constexpr (outputs.peak) {
             see(parts_seen, motion_within(series, now, h));
             end.extremes = extremes(taken, now, end, so_far);
@@ -197,7 +197,7 @@ private:
         return term * ratio / (1 - ratio) * h * (time_.unit * time_.unit * T(S(1) / (last + 2)));
     }
 
-    T slenderness_;
+    BlockSide<T> side_;
     PulseExcitation<T> excitation_;
     const bool is_wavelet_;
     const T tolerance_;

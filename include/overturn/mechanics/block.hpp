@@ -1,9 +1,6 @@
-// The block and its motion about one corner (Eq. 47), between impacts.
-// tau = p t; the ground acceleration is in units of g; the tilt |theta| is never negative.
+// The block, its two sides and its impacts. tau = p t; the tilt |theta| is never negative.
 #pragma once
 
-#include "overturn/mechanics/ground.hpp"
-#include "overturn/mechanics/theory.hpp"
 #include "overturn/number/elementary.hpp"
 #include "overturn/number/number.hpp"
 
@@ -31,6 +28,13 @@ auto combined(const Combine& combine, const BlockSide<T>&... sides)
     return {combine(sides.slenderness...), combine(sides.size...), combine(sides.pace...)};
 }
 
+/// The same side in numbers of another type.
+template <Number Other, Number T>
+BlockSide<Other> side_in(const BlockSide<T>& side)
+{
+    return combined([](const T& member) { return Other(member); }, side);
+}
+
 /// A block as seen from the side on which it rocks: this side, with the other one.
 template <Number T>
 struct Block : BlockSide<T> {
@@ -42,9 +46,7 @@ struct Block : BlockSide<T> {
     {}
 
     /// Symmetric, with size and pace 1; the slenderness is arctan(b / h).
-    Block(const T& alpha, const T& r)
-        : BlockSide<T>{alpha}, restitution(r), other{alpha}
-    {}
+    Block(const T& alpha, const T& r) : BlockSide<T>{alpha}, restitution(r), other{alpha} {}
 
     /// The same block as seen from the other side.
     Block turned() const { return {other, restitution, *this}; }
@@ -58,13 +60,20 @@ struct Block : BlockSide<T> {
     T rate_ratio() const { return sqrt(restitution * (this->size / other.size)); }
 };
 
+/// The side from which a block is seen.
+template <Number T>
+const BlockSide<T>& side_of(const Block<T>& block)
+{
+    return block;
+}
+
 /// The block with the members combine(a member of each of these blocks).
 template <class Combine, Number... T>
 auto combined(const Combine& combine, const Block<T>&... blocks)
     -> Block<decltype(combine(blocks.restitution...))>
 {
-    return {combined(combine, static_cast<const BlockSide<T>&>(blocks)...),
-            combine(blocks.restitution...), combined(combine, blocks.other...)};
+    return {combined(combine, side_of(blocks)...), combine(blocks.restitution...),
+            combined(combine, blocks.other...)};
 }
 
 /// The block, given as seen from its side plus, as seen from a side, +1 or -1.
@@ -93,6 +102,11 @@ struct State {
 };
 
 template <Number T>
+BlockSide<estimate_t<T>> estimate_of(const BlockSide<T>& side)
+{
+    return combined([](const T& member) { return estimate_of(member); }, side);
+}
+template <Number T>
 Block<estimate_t<T>> estimate_of(const Block<T>& block)
 {
     return combined([](const T& member) { return estimate_of(member); }, block);
@@ -109,38 +123,6 @@ T largest_restitution(const T& slenderness)
     const T sine = sine_and_cosine(slenderness).sine;
     const T root = scalar_t<T>(1) - scalar_t<T>(3) / scalar_t<T>(2) * sine * sine;
     return root * root;
-}
-
-/// The ground acceleration over g that lifts a block at rest [1].
-template <Theory theory, Number T>
-T uplift_acceleration(const T& slenderness)
-{
-    if constexpr (theory == Theory::linear) {
-        return slenderness;
-    } else {
-        const auto [sine, cosine] = sine_and_cosine(slenderness);
-        return sine / cosine;
-    }
-}
-
-/// d^2|theta| / d tau^2 (Eq. 47), with y = alpha - |theta| and the push B = side * ground
-/// acceleration / g:
-///
-///     |theta|'' = -(sin y + B cos y)          linear theory: -(y + B)
-///
-/// With a vertical motion, sin y (linear theory: y) is multiplied by the gravity.
-template <Theory theory, Number T, class Push>
-T rocking_acceleration(const T& tilt, const T& slenderness, const Push& push)
-{
-    const T y = slenderness - tilt;
-    if constexpr (theory == Theory::nonlinear) {
-        const auto [sine, cosine] = sine_and_cosine(y);
-        return -fma(horizontal_of(push), cosine, gravity_of(push, T(1)) * sine);
-    } else if constexpr (has_gravity<Push>) {
-        return -fma(push.gravity, y, push.horizontal);
-    } else {
-        return -(y + push);
-    }
 }
 
 /// Just after an impact: the block pivots about its other corner, its rate is multiplied by

@@ -1,8 +1,8 @@
 // The end of a bounce series in closed form: infinitely many impacts in finite time.
 #pragma once
 
-#include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
+#include "overturn/mechanics/theory/theories.hpp"
 
 #include <limits>
 
@@ -105,8 +105,10 @@ mask_t<T> bounces_die_out(const Block<T>& block, const auto& excitation, const T
     const mask_t<T> from_plus = side > 0;
     const T level = level_of_other_side(block);
     const auto pull_on = [&](const mask_t<T>& this_side, const auto& push) -> T {
-        const T slenderness = select<T>(this_side, alpha, block.other.slenderness);
-        const T pull = -rocking_acceleration<theory>(T(0), slenderness, push);
+        const BlockSide<T> on = combined(
+            [&](const T& here, const T& there) { return select<T>(this_side, here, there); },
+            side_of(block), block.other);
+        const T pull = -Equations<theory>::acceleration(on, T(0), push);
         return select<T>(this_side, pull, level * pull);
     };
     const auto pulls_under = [&](const auto& ground) -> Pulls<T> {

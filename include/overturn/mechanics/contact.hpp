@@ -3,6 +3,7 @@
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
+#include "overturn/mechanics/ground.hpp"
 
 #include <array>
 #include <limits>

@@ -2,31 +2,17 @@
 // Dimensionless: q over p^2, velocities d theta / d tau.
 #pragma once
 
-#include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/region.hpp"
+#include "overturn/mechanics/theory/theories.hpp"
 
 namespace overturn {
-
-/// Signed distance to the top of the rocking arc, negative beyond the top [rad].
-///
-///     c = 2 sin((alpha - |theta|) / 2)          linear theory: alpha - |theta|
-template <Theory theory, Number T>
-T separatrix_rate(const T& tilt, const T& slenderness)
-{
-    if constexpr (theory == Theory::linear) {
-        return slenderness - tilt;
-    } else {
-        const T sine = sine_and_cosine(T((slenderness - tilt) * 0.5)).sine;
-        return sine + sine;
-    }
-}
 
 /// The energy at the top of the other side j over that of this side i: W_j / W_i with
 /// W = m g R q_max / 2; 1 if the block is symmetric. largest: sqrt(q_max) of this side.
 template <Theory theory, Number T>
 T barrier_ratio(const T& largest, const Block<T>& block)
 {
-    const T ratio = separatrix_rate<theory>(T(0), block.other.slenderness) / largest;
+    const T ratio = Equations<theory>::separatrix_rate(block.other, T(0)) / largest;
     return block.other.size / block.size * (ratio * ratio);
 }
 
@@ -85,8 +71,8 @@ struct SafeRates {
 template <Theory theory, Number T>
 SafeRates<T> safe_rates(const T& tilt, const Block<T>& block)
 {
-    const T c = separatrix_rate<theory>(tilt, block.slenderness);
-    const T largest = separatrix_rate<theory>(T(0), block.slenderness);
+    const T c = Equations<theory>::separatrix_rate(block, tilt);
+    const T largest = Equations<theory>::separatrix_rate(block, T(0));
     const T& r = block.restitution;
     const T q_max = largest * largest;
     const T ratio = barrier_ratio<theory>(largest, block);
@@ -109,22 +95,11 @@ T margin_after_pulse(const State<T>& state, const Block<T>& block)
     return lesser<T>(safe.outward - state.rate, safe.inward().distance(state.rate)) / safe.largest;
 }
 
-/// The slope of the separatrix: d c / d|theta|, between -1 and 0 below the top.
-template <Theory theory, Number T>
-T separatrix_slope(const T& tilt, const T& slenderness)
-{
-    if constexpr (theory == Theory::linear) {
-        return T(-1);
-    } else {
-        return -sine_and_cosine(T((slenderness - tilt) * 0.5)).cosine;
-    }
-}
-
 /// The margin of a block that reached |theta| = pi/2 during the pulse: -theta'^2 / q_max.
 template <Theory theory, Number T>
 T margin_of_fall(const T& rate, const Block<T>& block)
 {
-    const T ratio = rate / separatrix_rate<theory>(T(0), block.slenderness);
+    const T ratio = rate / Equations<theory>::separatrix_rate(block, T(0));
     return -(ratio * ratio);
 }
 

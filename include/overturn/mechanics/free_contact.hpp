@@ -50,7 +50,7 @@ ContactDemand<T> free_contact(const State<T>& state, const Block<T>& block,
                       is_flat(sides.seen_from(-now.side), on.other.slenderness);
     for (int arc = 0; arc < (flat ? 200 : 4); ++arc) {
         const T y = on.slenderness - now.tilt;
-        const T c = separatrix_rate<theory>(now.tilt, on.slenderness);
+        const T c = Equations<theory>::separatrix_rate(on, now.tilt);
         const T q = (c - now.rate) * (c + now.rate);
         const bool outward = now.rate > 0;
         if (y <= 0 && (outward || now.rate >= c)) {
@@ -67,14 +67,14 @@ ContactDemand<T> free_contact(const State<T>& state, const Block<T>& block,
         if (overturns) {
             return demand;
         }
-        const T square = separatrix_rate<theory>(T(0), on.slenderness);
+        const T square = Equations<theory>::separatrix_rate(on, T(0));
         const T speed = square * square - q;
         now = {T(0), on.rate_ratio() * (speed > 0 ? T(sqrt(speed)) : T(0)), -now.side};
         on = on.turned();
     }
     if (block.restitution < 1) {
         for (const T& of : {now.side, T(-now.side)}) {
-            const T top = separatrix_rate<theory>(T(0), on.slenderness);
+            const T top = Equations<theory>::separatrix_rate(on, T(0));
             demand.include(
                 demand_of(force_on_arc(sides.seen_from(of), T(top * top), on.slenderness)), true);
             on = on.turned();

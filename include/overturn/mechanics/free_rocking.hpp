@@ -32,18 +32,18 @@ using MoreExact = std::conditional_t<std::is_floating_point_v<T>, Quad, T>;
 ///
 /// or (alpha - |theta|)^2 - theta'^2 in the linear theory.
 template <Theory theory, Number T, Number Q = MoreExact<T>>
-Q conserved_q(const State<T>& state, const T& slenderness)
+Q conserved_q(const State<T>& state, const BlockSide<T>& side)
 {
-    const Q c = separatrix_rate<theory>(Q(state.tilt), Q(slenderness));
+    const Q c = Equations<theory>::separatrix_rate(side_in<Q>(side), Q(state.tilt));
     const Q rate(state.rate);
     return (c - rate) * (c + rate);
 }
 
 /// q of a block at rest.
-template <Theory theory, Number Q>
-Q q_max_of(const Q& slenderness)
+template <Theory theory, Number Q, Number T>
+Q q_max_of(const BlockSide<T>& side)
 {
-    const Q largest = separatrix_rate<theory>(Q(0), slenderness);
+    const Q largest = Equations<theory>::separatrix_rate(side_in<Q>(side), Q(0));
     return largest * largest;
 }
 
@@ -58,8 +58,7 @@ Q q_after_impact(const Block<T>& block, const Q& q, const Q& q_max, const Q& q_m
 template <Theory theory, Number Q, Number T>
 Q q_after_impact(const Block<T>& block, const Q& q)
 {
-    return q_after_impact(block, q, q_max_of<theory>(Q(block.slenderness)),
-                          q_max_of<theory>(Q(block.other.slenderness)));
+    return q_after_impact(block, q, q_max_of<theory, Q>(block), q_max_of<theory, Q>(block.other));
 }
 
 /// Free rocking, one arc at a time; times since the beginning, in the unit of 1 / Block::pace,
@@ -69,8 +68,8 @@ class FreeRocking {
 public:
     /// block: as seen from the side on which it rocks at the beginning.
     FreeRocking(const State<T>& begin, const Block<T>& block)
-        : block_(block), begin_(0), q_(conserved_q<theory, T, Q>(begin, block.slenderness)),
-          arc_(begin, block.slenderness, T(q_))
+        : block_(block), begin_(0), q_(conserved_q<theory, T, Q>(begin, block)),
+          arc_(begin, block, T(q_))
     {}
 
     /// The current arc, the time at which it begins, and the number of impacts before it.
@@ -101,7 +100,7 @@ public:
             .tilt = T(0), .rate = block_.rate_ratio() * arc_.impact_speed(), .side = -arc_.side()};
         q_ = q_after_impact<theory>(block_, q_);
         block_ = block_.turned();
-        arc_ = RockingArc<theory, T>(upright, block_.slenderness, T(q_));
+        arc_ = RockingArc<theory, T>(upright, block_, T(q_));
     }
 
 private:
@@ -122,10 +121,10 @@ T largest_free_tilt(const State<T>& state, const Block<T>& block)
     }
     const auto turn = [](const T& slenderness, const T& q) -> T {
         const T distance = q > 0 ? T(sqrt(q)) : T(0); // from the top, at the turn
-        const T top = theory == Theory::linear ? distance : T(2 * asin(distance / 2));
+        const T top = Equations<theory>::distance_at(distance);
         return lesser<T>(greater<T>(slenderness - top, 0), slenderness) / slenderness;
     };
-    const T q = conserved_q<theory, T, T>(state, block.slenderness);
+    const T q = conserved_q<theory, T, T>(state, block);
     if (state.rate > 0 && block.is_symmetric()) {
         return turn(block.slenderness, q);
     }
@@ -154,47 +153,14 @@ T time_to_lie_flat(const State<T>& state, const Block<T>& block)
 }
 
 /// The duration of rocking of a block that leaves the ground at the rate v, and after each arc at
-/// sqrt(r) times the previous rate (the limit of Eq. 43): the sum of all half periods (Eq. 42)
-/// [1/p]. r < 1, and v < 2 sin(alpha/2), the rate at which it would overturn. With s = sin(alpha),
-/// c = cos(alpha), w = v^2 / 2s, Legendre's generating function gives the half period
-///
-///     T(v) = 2v/s sum of p[k] b[k],    b[k] = (2k)!! / (2k+1)!!,
-///     p[0] = 1,   p[1] = w c/s,   (k+1) p[k+1] = (2k+1) (c/s) w p[k] + k w^2 p[k-1],
-///
-/// or 2 artanh(v / alpha) in the linear theory. Term k of all half periods is a geometric series.
-/// The terms decrease like (v^2 / q_max)^k.
+/// sqrt(r) times the previous rate: see Equations::sum_of_half_periods(). Term k of all half
+/// periods is a geometric series.
 template <Theory theory, Number T>
 T sum_of_half_periods(const T& v, const T&, const Block<T>& block)
 {
-    const T& slenderness = block.slenderness;
     const T log_r = log(block.restitution);
-    const auto share = [&](int k) -> T { return -1 / expm1(log_r * (2 * k + 1) / 2); };
-    const T epsilon = std::numeric_limits<T>::epsilon();
-    T sum = share(0);
-    if constexpr (theory == Theory::linear) {
-        const T ratio = v / slenderness;
-        T power(1);
-        for (int k = 1; power > epsilon; ++k) {
-            power *= ratio * ratio;
-            sum += power / (2 * k + 1) * share(k);
-        }
-        return 2 * ratio * sum;
-    } else {
-        const T s = sin(slenderness);
-        const T w = v * v / (2 * s);
-        const T slope = cos(slenderness) / s * w;
-        T before(0);
-        T p(1);
-        T b(1);
-        for (int k = 0; p * b > epsilon; ++k) {
-            const T next = ((2 * k + 1) * slope * p + k * w * w * before) / (k + 1);
-            before = p;
-            p = next;
-            b *= T(2 * k + 2) / (2 * k + 3);
-            sum += p * b * share(k + 1);
-        }
-        return 2 * v / s * sum;
-    }
+    return Equations<theory>::sum_of_half_periods(
+        block, v, [&](int k) -> T { return -1 / expm1(log_r * (2 * k + 1) / 2); });
 }
 
 /// The same sum for r close to 1, to first order in 1 - r: twice the integral of T(v) / v, divided
@@ -204,7 +170,7 @@ T integral_of_half_periods(const T& v, const T& q, const Block<T>& block)
 {
     const auto half_period = [&](const T& rate, const T& gained) -> T { // gained: increase of q
         const State<T> upright{.tilt = T(0), .rate = rate, .side = T(1)};
-        return RockingArc<theory, T>(upright, block.slenderness, q + gained).time_to_impact();
+        return RockingArc<theory, T>(upright, block, q + gained).time_to_impact();
     };
     const T root = sqrt(std::numeric_limits<T>::epsilon());
     const T fine = root * sqrt(root);
@@ -270,12 +236,11 @@ T time_of_rest(const State<T>& begin, const Block<T>& block)
         rocking.strike();
     }
     T time = rocking.begin();
-    const auto q_max = [](const T& slenderness) {
-        return T(q_max_of<theory>(MoreExact<T>(slenderness)));
+    const auto q_max = [](const BlockSide<T>& side) {
+        return T(q_max_of<theory, MoreExact<T>>(side));
     };
     Leaving<T> leaving{rocking.arc().at(T(0)).rate, rocking.arc().q(), rocking.block(),
-                       q_max(rocking.block().slenderness),
-                       q_max(rocking.block().other.slenderness)};
+                       q_max(rocking.block()), q_max(rocking.block().other)};
     if (leaving.rate == 0) {
         return time;
     }
@@ -293,7 +258,7 @@ T time_of_rest(const State<T>& begin, const Block<T>& block)
             return time + sum_on_both_sides(leaving, integral_of_half_periods<theory, T>);
         }
         const State<T> upright{.tilt = T(0), .rate = leaving.rate, .side = T(1)};
-        const RockingArc<theory, T> arc(upright, leaving.block.slenderness, leaving.q);
+        const RockingArc<theory, T> arc(upright, leaving.block, leaving.q);
         time += arc.time_to_impact() / leaving.block.pace;
         leaving = leaving.after_impact();
     }

@@ -2,9 +2,9 @@
 // The height of its bounces is bounded here without integrating them.
 #pragma once
 
-#include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
 #include "overturn/mechanics/record_excitation.hpp"
+#include "overturn/mechanics/theory/theories.hpp"
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@ struct LowBounceStep {
     double duration; ///< [1/p]
     double highest;  ///< the tilt above which there is no bound [rad]
     double k;
-    double tangent; ///< tan(alpha)
+    double tangent; ///< tan(alpha), see Equations::lever_growth()
     double size;    ///< R
     double growth = duration < 1 ? k * duration * duration : 1;
     double weakest = 0; ///< g: the smallest pull towards the ground
@@ -112,20 +112,20 @@ std::optional<LowBounces> bound_of_low_bounces(const Block<double>& block, const
         const double frequency = excitation.frequency / (is_symmetric ? 1 : side.pace);
         return {.duration = step / frequency,
                 .highest = side.slenderness / 4,
-                .k = theory == Theory::linear ? 1 : std::hypot(1, most),
-                .tangent = theory == Theory::linear ? 0 : std::tan(side.slenderness),
+                .k = Equations<theory>::largest_stiffness(most),
+                .tangent = Equations<theory>::lever_growth(side),
                 .size = side.size};
     };
     std::array<LowBounceStep, 2> sides{step_on(seen[0]), step_on(seen[1])};
     for (const std::size_t i : {0, 1}) {
-        if (most > 2 * uplift_acceleration<theory>(seen[i].slenderness) || sides[i].growth > 0.01) {
+        if (most > 2 * Equations<theory>::uplift_acceleration(seen[i]) || sides[i].growth > 0.01) {
             return std::nullopt; // the push is too strong, or the step too long
         }
     }
 
     const auto pull = [&](double phase, std::size_t i) -> double {
         const double push = (i == 0 ? 1 : -1) * horizontal_of(excitation.ground(phase));
-        return -rocking_acceleration<theory>(0.0, seen[i].slenderness, push);
+        return -Equations<theory>::acceleration(seen[i], 0.0, push);
     };
     const auto& motion = excitation.motion;
     double phase =

@@ -2,8 +2,8 @@
 // the phases at which it lifts the block from rest.
 #pragma once
 
-#include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/pulse_motion.hpp"
+#include "overturn/mechanics/theory/theories.hpp"
 
 namespace overturn {
 
@@ -62,15 +62,16 @@ template <Theory theory, class S>
 ScaledPulse<S> scaled_pulse(const PulseMotion<S>& motion, const PerLobe<FlankInPulse<S>>& flanks,
                             const Block<S>& block, const S& amplitude)
 {
-    const S& plus = block.slenderness;
-    const S& minus = block.other.slenderness;
-    const S acceleration = amplitude * uplift_acceleration<theory>(lesser<S>(plus, minus));
-    const auto over_uplift = [&](const S& alpha, const S& other) -> S {
-        return alpha > other ? S(abs(acceleration) / uplift_acceleration<theory>(alpha))
-                             : S(abs(amplitude));
+    const bool plus_is_lower = block.slenderness < block.other.slenderness;
+    const S acceleration = amplitude * Equations<theory>::uplift_acceleration(
+                                           plus_is_lower ? side_of(block) : block.other);
+    const auto over_uplift = [&](const BlockSide<S>& side, const BlockSide<S>& other) -> S {
+        return side.slenderness > other.slenderness
+                   ? S(abs(acceleration) / Equations<theory>::uplift_acceleration(side))
+                   : S(abs(amplitude));
     };
     // A positive ground acceleration pushes the block towards its side minus.
-    LobeAmplitudes<S> lobes{over_uplift(minus, plus), over_uplift(plus, minus)};
+    LobeAmplitudes<S> lobes{over_uplift(block.other, block), over_uplift(block, block.other)};
     if (amplitude < 0) {
         std::swap(lobes.positive, lobes.negative);
     }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "overturn/mechanics/accelerogram.hpp"
-#include "overturn/mechanics/block.hpp"
+#include "overturn/mechanics/theory/theories.hpp"
 
 #include <limits>
 
@@ -168,8 +168,8 @@ RecordExcitation<S, Directions::both> record_excitation(const Accelerogram& reco
     return {.motion = record_motion<S>(record),
             .acceleration = scale,
             .frequency = frequency,
-            .to_plus = uplift_acceleration<theory>(block.slenderness),
-            .to_minus = uplift_acceleration<theory>(block.other.slenderness)};
+            .to_plus = Equations<theory>::uplift_acceleration(block),
+            .to_minus = Equations<theory>::uplift_acceleration(block.other)};
 }
 
 } // namespace overturn

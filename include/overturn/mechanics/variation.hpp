@@ -21,23 +21,6 @@ struct Variation {
     T time = T(0);
 };
 
-/// d(|theta|'') / d|theta| of Eq. 47 with y = alpha - |theta| and the push B:
-///
-///     k = cos y - B sin y          linear theory: 1
-///
-/// With a vertical motion, cos y (linear theory: 1) is multiplied by the gravity.
-template <Theory theory, Number T, class Push>
-T rocking_stiffness(const T& tilt, const T& slenderness, const Push& push)
-{
-    const T gravity = gravity_of(push, T(1));
-    if constexpr (theory == Theory::linear) {
-        return gravity;
-    } else {
-        const auto [sine, cosine] = sine_and_cosine(T(slenderness - tilt));
-        return fma(-horizontal_of(push), sine, gravity * cosine);
-    }
-}
-
 /// The longest time for which variation_over() is valid [1/p].
 inline constexpr double longest_variation = 12;
 

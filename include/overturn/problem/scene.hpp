@@ -3,7 +3,7 @@
 
 #include "overturn/mechanics/accelerogram.hpp"
 #include "overturn/mechanics/pulse_kind.hpp"
-#include "overturn/mechanics/theory.hpp"
+#include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/text/motion_words.hpp"
 #include "overturn/text/names.hpp"
 
@@ -31,8 +31,6 @@ inline constexpr auto names_of<PulseKind> = [] {
                    [](const PulseTraits& pulse) { return pulse.name; });
     return names;
 }();
-template <>
-inline constexpr std::array<std::string_view, 2> names_of<Theory>{"nonlinear", "linear"};
 template <>
 inline constexpr std::array<std::string_view, 2> names_of<Method>{"rk45", "taylor"};
 
