@@ -77,7 +77,6 @@ std::vector<AxisSummary> read_coordinate_numbers(hid_t file, std::uint64_t bytes
 /// The fields in the order of their creation, which is that of the job.
 std::vector<Field> read_fields(hid_t file)
 {
-    const std::vector<std::string_view> names = field_names();
     H5G_info_t group = {};
     check(H5Gget_info(file, &group));
     std::vector<Field> fields;
@@ -86,9 +85,8 @@ std::vector<Field> read_fields(hid_t file)
         const auto length = check(H5Lget_name_by_idx(file, ".", H5_INDEX_CRT_ORDER, H5_ITER_INC, i,
                                                      name.data(), name.size(), H5P_DEFAULT));
         name.resize(std::min(std::size_t(length), name.size()));
-        const auto found = std::find(names.begin(), names.end(), name);
-        if (found != names.end()) {
-            fields.push_back(Field(found - names.begin()));
+        if (const FieldTraits* found = find_field(name)) {
+            fields.push_back({found->name});
         }
     }
     demand(!fields.empty(), "there are no fields");
@@ -183,7 +181,7 @@ struct StoredResult::Open {
         tiles.numbers = read_coordinate_numbers(file, bytes);
         tiles.fields = read_fields(file);
         for (const Field field : tiles.fields) {
-            demand(!is_of_line(field) || crossing() < tiles.axes.size(),
+            demand(traits_of(field).of != FieldOf::line || crossing() < tiles.axes.size(),
                    "the dimension `crossing` is missing");
             check_field(file, field, stored_dimensions_of(field, tiles.axes, crossing()), bytes);
         }
@@ -299,7 +297,7 @@ BoundaryLines StoredResult::count_lines() const
     lines.has_shares = is_one_of(Field::unsafe_share, tiles().fields);
     std::vector<Field> fields{Field::region_below, Field::region_above};
     if (lines.has_shares) {
-        fields.insert(fields.end(), line_fields.begin(), line_fields.end());
+        fields.insert(fields.end(), {Field::unsafe_share, Field::undecided_share});
     }
     const auto count = [&](const Tile& tile, const std::vector<FieldValues>& values) {
         const auto& below = std::get<std::vector<std::uint8_t>>(values[0]);

@@ -25,7 +25,7 @@ inline std::size_t place_of_crossing(const Problem& problem)
 template <class List>
 List stored_dimensions_of(Field field, List of_points, std::size_t crossing)
 {
-    if (is_of_line(field)) {
+    if (traits_of(field).of == FieldOf::line) {
         of_points.erase(of_points.begin() + std::ptrdiff_t(crossing));
     }
     return of_points;

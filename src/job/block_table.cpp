@@ -58,8 +58,7 @@ void expect_free_name(const BlockTable& blocks, const std::string& name, bool is
     };
     const Quantity* const same = find_quantity(name);
     if ((same != nullptr && same->role == Role::derived) || is_one_of(name, reserved_names) ||
-        is_one_of(name, field_names()) ||
-        (is_recorded && is_one_of(name, reserved_under_records))) {
+        find_field(name) != nullptr || (is_recorded && is_one_of(name, reserved_under_records))) {
         refuse_name(" is the name of a variable of the result. Rename the column.");
     }
     for (const TableColumn& other : blocks.table.columns) {

@@ -89,13 +89,14 @@ std::vector<Field> read_fields(const Entry& job)
     if (!entry) {
         return {Field::region};
     }
-    const std::vector<std::string_view> names = spectrum_field_names();
+    const std::vector<Field> known = spectrum_fields();
+    const std::vector<std::string_view> names = mapped(known, &Field::name);
     const std::size_t size =
         array_size(*entry, "an array of strings, such as [\"region\"]",
                    fmt::format("Give at least one of {}.", fmt::join(names, ", ")));
     std::vector<Field> fields;
     for (std::size_t i = 0; i < size; ++i) {
-        const auto field = choice_of<Field>(element(*entry, i), names);
+        const Field field = known[index_of_name(element(*entry, i), names)];
         if (is_one_of(field, fields)) {
             refuse(element(*entry, i), " = \"{}\" is listed twice. List each field once.",
                    name_of(field));
@@ -120,8 +121,9 @@ void expect_computable(const Entry& job, const Problem& problem)
                numerics.tolerance, numerics.resolve ? "resolve" : "the field \"error\"",
                largest_rk45_tolerance_with_error);
     }
-    for (const Field field : {Field::friction, Field::normal}) {
-        if (!has_contact_forces(problem.scene.theory) && is_one_of(field, problem.fields)) {
+    for (const Field field : problem.fields) {
+        if (!has_contact_forces(problem.scene.theory) &&
+            is_one_of(&Outputs::contact, traits_of(field).needs)) {
             refuse(key("output", "fields"),
                    " contains \"{}\", but the linear theory has no forces of the contact. Remove "
                    "it, or use theory = \"nonlinear\".",

@@ -1,8 +1,10 @@
 #include "overturn/problem/fields.hpp"
 
-#include "overturn/mechanics/region.hpp"
-#include "overturn/text/mapped.hpp"
+#include "overturn/mechanics/free_rocking.hpp"
+#include "overturn/sweep/outcome.hpp"
 
+#include <algorithm>
+#include <cassert>
 #include <limits>
 
 namespace overturn {
@@ -23,48 +25,115 @@ std::vector<FieldFlag> regions(bool with_no_flip)
     return flags;
 }
 
-const std::vector<FieldFlag> impact_flags{{impact_count::largest, "this_many_or_more"},
-                                          {impact_count::not_computed, "not_computed"},
-                                          {impact_count::bounce_series, "bounce_series"}};
-const std::vector<FieldFlag> step_flags{{step_count::not_computed, "not_computed"}};
-const std::vector<FieldFlag> status_flags{
-    {status::came_to_rest, "came_to_rest"}, {status::cap_was_hit, "cap_was_hit"},
-    {status::not_finite, "not_finite"},     {status::unresolved, "unresolved"},
-    {status::free_fall, "free_fall"},       {status::lifts_off, "lifts_off"}};
-const std::vector<FieldFlag> origin_flags{{point_origin::filled, "filled"},
-                                          {point_origin::integrated, "integrated"},
-                                          {point_origin::not_computed, "not_computed"}};
+const std::vector<FieldFlag> region_flags = regions(false);
+const std::vector<FieldFlag> region_or_no_flip = regions(true);
 
-/// In the order of the enumerators.
-const std::array<FieldTraits, count_of_fields> fields{{
-    {"region", FieldType::uint8, "region at the end of the ground motion", "",
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// d theta / d(p t) at the end, with the p of the side plus [rad].
+double velocity(const EndOfPoint& end)
+{
+    const Block<double>& block = end.point.block;
+    const double rate = end.outcome.rate;
+    return end.outcome.with_sign(block.is_symmetric() ? rate
+                                                      : rate * (end.block().pace / block.pace));
+}
+
+/// The largest |theta| / alpha during the ground motion and after it [1].
+double peak(const EndOfPoint& end)
+{
+    const Outcome& outcome = end.outcome;
+    if (!is_safe(outcome.region)) {
+        return is_unsafe(outcome.region) ? infinity : unknown;
+    }
+    return with_theory(end.scene.theory, [&]<Theory theory>() {
+        return std::max(outcome.peak / end.point.block.slenderness,
+                        largest_free_tilt<theory>(outcome.end(), end.block()));
+    });
+}
+
+/// The time from the first uplift to |theta| = pi/2 [1/p].
+double fall_time(const EndOfPoint& end)
+{
+    const Outcome& outcome = end.outcome;
+    if (!is_unsafe(outcome.region)) {
+        return is_safe(outcome.region) ? infinity : unknown;
+    }
+    return with_theory(end.scene.theory, [&]<Theory theory>() {
+        const double forced = (outcome.phase - end.first_uplift()) / end.point.frequency;
+        const double time =
+            outcome.has(outcome_flag::fell)
+                ? forced
+                : forced + time_to_lie_flat<theory, double>(outcome.end(), end.block());
+        return time * end.point.block.pace;
+    });
+}
+
+/// A number of the outcome as it is.
+template <auto member>
+double value_of(const EndOfPoint& end)
+{
+    return double(end.outcome.*member);
+}
+
+double angle(const EndOfPoint& end)
+{
+    return end.outcome.with_sign(end.outcome.tilt);
+}
+
+double impacts(const EndOfPoint& end)
+{
+    return end.outcome.stored_impacts(end.scene.is_recorded());
+}
+
+double status_bits(const EndOfPoint& end)
+{
+    return end.outcome.flags & outcome_flag::of_status;
+}
+
+using enum FieldType;
+
+// clang-format off
+/// In the order in which messages list them.
+const FieldTraits fields[] = {
+    {"region", uint8, "region at the end of the ground motion", "",
      "S: safe within the separatrix; S+, S-: safe due to the loss at the next impact; U0: "
      "overturns without another impact; U1, U2: overturns after one or two more impacts; F: falls "
      "during the ground motion",
-     regions(false)},
-    {"angle", FieldType::float64, "angle at the end of the ground motion", "rad", "theta"},
-    {"velocity", FieldType::float64, "velocity at the end of the ground motion", "rad",
-     "d theta / d(p t)"},
-    {"margin", FieldType::float64, "margin, positive where safe", "1",
-     "distance from the other verdict"},
-    {"error", FieldType::float64, "bound on the error of the margin", "1",
+     {&Outputs::region}, value_of<&Outcome::region>, region_flags, FieldOf::filled_point},
+    {"angle", float64, "angle at the end of the ground motion", "rad", "theta", {}, angle},
+    {"velocity", float64, "velocity at the end of the ground motion", "rad", "d theta / d(p t)",
+     {}, velocity},
+    {"margin", float64, "margin, positive where safe", "1", "distance from the other verdict",
+     {&Outputs::margin}, value_of<&Outcome::margin>},
+    {"error", float64, "bound on the error of the margin", "1",
      "to first order; infinite where it is unknown: an impact or a fall may or may not have "
-     "happened, or was only just avoided; a verdict is certain where |margin| is larger"},
-    {"peak", FieldType::float64, "largest |theta| / alpha", "1",
-     "during the ground motion and after it; infinite where the block overturns"},
-    {"fall_time", FieldType::float64, "time p t from uplift to |theta| = pi/2", "1",
-     "infinite where the block does not overturn"},
-    {"friction", FieldType::float64, "friction coefficient needed", "1",
+     "happened, or was only just avoided; a verdict is certain where |margin| is larger",
+     {&Outputs::error}, value_of<&Outcome::error>},
+    {"peak", float64, "largest |theta| / alpha", "1",
+     "during the ground motion and after it; infinite where the block overturns",
+     {&Outputs::region, &Outputs::peak}, peak},
+    {"fall_time", float64, "time p t from uplift to |theta| = pi/2", "1",
+     "infinite where the block does not overturn", {&Outputs::region, &Outputs::phase}, fall_time},
+    {"friction", float64, "friction coefficient needed", "1",
      "the largest |along| / normal force of the base on the block, during the ground motion and "
      "after it, impacts excepted; of a block that overturns, until it last passes alpha; infinite "
-     "where the block would leave the base"},
-    {"normal", FieldType::float64, "smallest normal force over that at rest", "1",
-     "over the same times as the friction"},
-    {"impacts", FieldType::uint16, "impacts during the ground motion", "1", "", impact_flags},
-    {"steps", FieldType::uint32, "integration steps tried", "1", "", step_flags},
-    {"status", FieldType::uint8, "flags set during the integration", "",
-     "0: no flag is set; 255: not computed yet", status_flags, true},
-    {"flip_amplitude", FieldType::float64, "strength at which the verdict flips", "1",
+     "where the block would leave the base",
+     {&Outputs::contact}, value_of<&Outcome::friction>},
+    {"normal", float64, "smallest normal force over that at rest", "1",
+     "over the same times as the friction", {&Outputs::contact}, value_of<&Outcome::normal>},
+    {"impacts", uint16, "impacts during the ground motion", "1", "", {&Outputs::impacts}, impacts,
+     {{impact_count::largest, "this_many_or_more"}, {impact_count::not_computed, "not_computed"},
+      {impact_count::bounce_series, "bounce_series"}}, FieldOf::filled_point},
+    {"steps", uint32, "integration steps tried", "1", "", {&Outputs::steps},
+     value_of<&Outcome::steps>, {{step_count::not_computed, "not_computed"}}},
+    {"status", uint8, "flags set during the integration", "",
+     "0: no flag is set; 255: not computed yet", {}, status_bits,
+     {{status::came_to_rest, "came_to_rest"}, {status::cap_was_hit, "cap_was_hit"},
+      {status::not_finite, "not_finite"}, {status::unresolved, "unresolved"},
+      {status::free_fall, "free_fall"}, {status::lifts_off, "lifts_off"}}, FieldOf::point, true},
+    {"flip_amplitude", float64, "strength at which the verdict flips", "1",
      "the amplitude of a pulse or the scale of a record, in ascending order; NaN beyond the last "
      "flip. Each flip lies between two amplitudes with settled verdicts, at most `width` apart "
      "relative to their size. If region_below or region_above is undecided, the value is not a "
@@ -72,46 +141,61 @@ const std::array<FieldTraits, count_of_fields> fields{{
      "scan were halved where the margin is not linear or the number of impacts changes, down to "
      "`finest_step` of the amplitude; strips that are narrower, or that the neighbouring "
      "amplitudes do not indicate, may be missed. Under a record, the steps were divided evenly "
-     "until each was at most `finest_step` of the amplitude; narrower strips exist and are missed"},
-    {"region_below", FieldType::uint8, "region just below the flip", "",
+     "until each was at most `finest_step` of the amplitude; narrower strips exist and are missed",
+     {}, nullptr, {}, FieldOf::flip},
+    {"region_below", uint8, "region just below the flip", "",
      "if there is no flip, the first entry along `crossing` has the region at the first amplitude "
      "of the scan. A first flip above a safe region is the minimum overturning amplitude. If the "
      "first entry has an unsafe region below, the block overturns at the first amplitude of the "
-     "job",
-     regions(true)},
-    {"region_above", FieldType::uint8, "region just above the flip", "",
+     "job", {}, nullptr, region_or_no_flip, FieldOf::flip},
+    {"region_above", uint8, "region just above the flip", "",
      "undecided: verdicts could not be settled up to the next flip, or this is the last stored "
-     "flip and there are more",
-     regions(true)},
-    {"flip_pga", FieldType::float64, "PGA at which the verdict flips, over g", "1", ""},
-    {"unsafe_share", FieldType::float64, "share of amplitudes that overturn", "1",
+     "flip and there are more", {}, nullptr, region_or_no_flip, FieldOf::flip},
+    {"flip_pga", float64, "PGA at which the verdict flips, over g", "1", "", {}, nullptr, {},
+     FieldOf::flip},
+    {"unsafe_share", float64, "share of amplitudes that overturn", "1",
      "share of the scanned interval. Under a record, smaller steps find more flips; this share "
-     "hardly depends on the step. Flips beyond the last stored flip are included"},
-    {"undecided_share", FieldType::float64, "share of amplitudes without verdict", "1",
-     "share of the scanned interval in which the verdict could not be settled"},
-    {"evaluated", FieldType::uint8, "whether the point was integrated", "",
+     "hardly depends on the step. Flips beyond the last stored flip are included",
+     {}, nullptr, {}, FieldOf::line},
+    {"undecided_share", float64, "share of amplitudes without verdict", "1",
+     "share of the scanned interval in which the verdict could not be settled",
+     {}, nullptr, {}, FieldOf::line},
+    {"evaluated", uint8, "whether the point was integrated", "",
      "filled: all nodes of a cell around the point have its region, and none of the functions "
-     "that change it is near zero; by numerical evidence, not by proof",
-     origin_flags},
-}};
+     "that change it is near zero; by numerical evidence, not by proof", {}, nullptr,
+     {{point_origin::filled, "filled"}, {point_origin::integrated, "integrated"},
+      {point_origin::not_computed, "not_computed"}}, FieldOf::filling}};
+// clang-format on
 
 } // namespace
 
+std::span<const FieldTraits> all_fields()
+{
+    return fields;
+}
+
+const FieldTraits* find_field(std::string_view name)
+{
+    const auto found = std::ranges::find(fields, name, &FieldTraits::name);
+    return found == std::end(fields) ? nullptr : found;
+}
+
 const FieldTraits& traits_of(Field field)
 {
-    return fields[std::size_t(field)];
+    const FieldTraits* found = find_field(field.name);
+    assert(found != nullptr);
+    return *found;
 }
 
-std::vector<std::string_view> field_names()
+std::vector<Field> spectrum_fields()
 {
-    return mapped(fields, &FieldTraits::name);
-}
-
-std::vector<std::string_view> spectrum_field_names()
-{
-    std::vector<std::string_view> names = field_names();
-    names.resize(std::size_t(Field::status) + 1);
-    return names;
+    std::vector<Field> of_points;
+    for (const FieldTraits& traits : fields) {
+        if (traits.value != nullptr) {
+            of_points.push_back({traits.name});
+        }
+    }
+    return of_points;
 }
 
 std::variant<std::uint8_t, std::uint16_t, std::uint32_t, double> fill_value(Field field)

@@ -35,7 +35,7 @@ std::vector<Field> boundary_fields(const Scene& scene, const Grid& grid)
         fields.push_back(Field::flip_pga);
     }
     if (scene.is_recorded()) {
-        fields.insert(fields.end(), line_fields.begin(), line_fields.end());
+        fields.insert(fields.end(), {Field::unsafe_share, Field::undecided_share});
     }
     return fields;
 }
@@ -127,7 +127,7 @@ std::string reason_not_to_fill(const Problem& problem)
         }
     }
     for (const Field field : problem.fields) {
-        if (field != Field::region && field != Field::impacts) {
+        if (traits_of(field).of != FieldOf::filled_point) {
             return fmt::format("the field \"{}\" cannot be filled; only \"region\" and \"impacts\" "
                                "can",
                                name_of(field));

@@ -54,6 +54,13 @@ struct Archive {
         column.quantity = all_quantities().data() + number;
     }
 
+    void transfer(Field& field)
+    {
+        std::ptrdiff_t number = is_input ? 0 : &traits_of(field) - all_fields().data();
+        transfer(number);
+        field = {all_fields()[std::size_t(number)].name};
+    }
+
     void transfer(Dimension& dimension) { transfer_all(dimension.name, dimension.columns); }
 
     void transfer(std::shared_ptr<const Accelerogram>& record)

@@ -203,14 +203,16 @@ void AccuracyStudy::measure_errors(const Outcomes& outcomes, AccuracyRow& row) c
         const Outcome& exact = (*in_50_digits_)[point];
         // If only one of the two blocks fell, their ends cannot be compared.
         const bool differ = is_forced_fall(found.region) != exact.has(outcome_flag::fell);
-        const auto error = [&](double value, double true_value) {
-            const double apart = std::abs(value - true_value);
+        const auto error = [&](Field field) {
+            const auto& value_of = traits_of(field).value;
+            const double apart = std::abs(value_of(run_->end_of(point, found)) -
+                                          value_of(run_->end_of(point, exact)));
             return differ || !std::isfinite(apart) ? std::numeric_limits<double>::infinity()
                                                    : apart;
         };
-        angle.push_back(error(found.with_sign(found.tilt), exact.with_sign(exact.tilt)));
-        velocity.push_back(error(run_->velocity(point, found), run_->velocity(point, exact)));
-        margin.push_back(error(found.margin, exact.margin));
+        angle.push_back(error(Field::angle));
+        velocity.push_back(error(Field::velocity));
+        margin.push_back(error(Field::margin));
         if (with_bounds) {
             exceeded += margin.back() > found.error;
             if (margin.back() > 0 && std::isfinite(found.error)) {

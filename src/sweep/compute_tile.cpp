@@ -5,10 +5,8 @@
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/sweep/boundary.hpp"
 #include "overturn/sweep/fill.hpp"
-#include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
 
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,49 +19,32 @@ namespace overturn {
 
 namespace {
 
-/// The values of of_point(i, outcome) for all points.
-template <class Value, class OfPoint>
-FieldValues values_of(const Outcomes& outcomes, const OfPoint& of_point)
-{
-    std::vector<Value> values(std::size_t(outcomes.size()));
-    for (int i = 0; i < outcomes.size(); ++i) {
-        values[std::size_t(i)] = Value(of_point(i, outcomes[i]));
-    }
-    return values;
-}
-
 /// A field of a spectrum that is not filled.
 FieldValues values_of(Field field, const PointRun& points, const Outcomes& outcomes)
 {
-    const auto numbers = [&](const auto& of_point) {
-        return values_of<double>(outcomes, of_point);
-    };
-    switch (field) {
-    case Field::region:
-        return values_of<std::uint8_t>(outcomes, [](int, const Outcome& at) { return at.region; });
-    case Field::angle: return numbers([](int, const Outcome& at) { return at.with_sign(at.tilt); });
-    case Field::velocity:
-        return numbers([&](int i, const Outcome& at) { return points.velocity(i, at); });
-    case Field::margin: return numbers([](int, const Outcome& at) { return at.margin; });
-    case Field::error: return numbers([](int, const Outcome& at) { return at.error; });
-    case Field::peak: return numbers([&](int i, const Outcome& at) { return points.peak(i, at); });
-    case Field::fall_time:
-        return numbers([&](int i, const Outcome& at) { return points.fall_time(i, at); });
-    case Field::friction: return numbers([](int, const Outcome& at) { return at.friction; });
-    case Field::normal: return numbers([](int, const Outcome& at) { return at.normal; });
-    case Field::impacts:
-        return values_of<std::uint16_t>(outcomes, [&](int, const Outcome& at) {
-            return at.stored_impacts(points.scene().is_recorded());
-        });
-    case Field::steps:
-        return values_of<std::uint32_t>(outcomes, [](int, const Outcome& at) { return at.steps; });
-    default: break;
+    FieldValues computed = not_computed(field, points.size());
+    const auto& value_of = traits_of(field).value;
+    std::visit(
+        [&]<class Value>(std::vector<Value>& values) {
+            for (int i = 0; i < points.size(); ++i) {
+                values[std::size_t(i)] =
+                    Value(value_of(points.end_of(i, outcomes[std::size_t(i)])));
+            }
+        },
+        computed);
+    return computed;
+}
+
+/// What the fields of a spectrum need of the integration.
+Outputs outputs_of(const std::vector<Field>& fields)
+{
+    Outputs outputs;
+    for (const Field field : fields) {
+        for (const auto output : traits_of(field).needs) {
+            outputs.*output = true;
+        }
     }
-    assert(field == Field::status);
-    return values_of<std::uint8_t>(outcomes, [&](int, const Outcome& at) {
-        const bool lifts_off = outcomes.outputs.contact && at.normal <= 0;
-        return (at.flags & outcome_flag::of_status) | (lifts_off ? status::lifts_off : 0);
-    });
+    return outputs;
 }
 
 TileFields filled_tile(const Problem& problem, const Tile& tile, Kernel kernel,
@@ -86,20 +67,9 @@ TileFields spectrum_tile(const Problem& problem, const Tile& tile, Kernel kernel
                          const DropRequested& drop_requested)
 {
     const auto& [scene, grid, numerics, product, fields] = problem;
-    const auto wanted = [&problem](Field field) { return is_one_of(field, problem.fields); };
-    const bool has_contact = wanted(Field::friction) || wanted(Field::normal);
     const PointRun points(scene, Coordinates(scene, grid, tile).points(), kernel, drop_requested,
                           !grid.has_two_sides());
-    const Outcomes outcomes = outcomes_of(
-        points, numerics,
-        {.impacts = wanted(Field::impacts),
-         .error = wanted(Field::error),
-         .peak = wanted(Field::peak),
-         .region = wanted(Field::region) || wanted(Field::peak) || wanted(Field::fall_time),
-         .margin = wanted(Field::margin),
-         .steps = wanted(Field::steps),
-         .phase = wanted(Field::fall_time),
-         .contact = has_contact});
+    const Outcomes outcomes = outcomes_of(points, numerics, outputs_of(fields));
     const auto computed = [&](Field field) { return values_of(field, points, outcomes); };
     return {.values = mapped(fields, computed)};
 }
@@ -138,14 +108,14 @@ TileFields boundary_tile(const Problem& problem, const Tile& tile, Kernel kernel
     if (boundary.has_more) {
         above.back() = std::uint8_t(Region::undecided);
     }
-    const std::map<Field, FieldValues> computed{
-        {Field::flip_amplitude, std::move(amplitude)},
-        {Field::region_below, std::move(below)},
-        {Field::region_above, std::move(above)},
-        {Field::flip_pga, std::move(pga)},
-        {Field::unsafe_share, std::vector{boundary.unsafe_share}},
-        {Field::undecided_share, std::vector{boundary.undecided_share}}};
-    return {.values = mapped(fields, [&](Field field) { return computed.at(field); })};
+    const std::map<std::string_view, FieldValues> computed{
+        {"flip_amplitude", std::move(amplitude)},
+        {"region_below", std::move(below)},
+        {"region_above", std::move(above)},
+        {"flip_pga", std::move(pga)},
+        {"unsafe_share", std::vector{boundary.unsafe_share}},
+        {"undecided_share", std::vector{boundary.undecided_share}}};
+    return {.values = mapped(fields, [&](Field field) { return computed.at(field.name); })};
 }
 
 } // namespace

@@ -2,9 +2,7 @@
 
 #include "overturn/integrate/more_digits.hpp"
 #include "overturn/mechanics/free_contact.hpp"
-#include "overturn/mechanics/free_rocking.hpp"
 #include "overturn/mechanics/low_bounces.hpp"
-#include "overturn/problem/fields.hpp"
 #include "overturn/text/mapped.hpp"
 
 #include <algorithm>
@@ -323,44 +321,16 @@ bool PointRun::settle_low_bounces(int point, Outcome& outcome) const
     return true;
 }
 
-double PointRun::velocity(int point, const Outcome& outcome) const
+EndOfPoint PointRun::end_of(int point, const Outcome& outcome) const
 {
-    const Block<double>& block = this->point(point).block;
-    const double rate = block.is_symmetric()
-                            ? outcome.rate
-                            : outcome.rate * (block_at_end(point, outcome).pace / block.pace);
-    return outcome.with_sign(rate);
-}
-
-double PointRun::peak(int point, const Outcome& outcome) const
-{
-    if (!is_safe(outcome.region)) {
-        return is_unsafe(outcome.region) ? infinity : unknown;
-    }
-    return with_theory(scene_.theory, [&]<Theory theory>() {
-        return std::max(outcome.peak / this->point(point).block.slenderness,
-                        largest_free_tilt<theory>(outcome.end(), block_at_end(point, outcome)));
-    });
-}
-
-double PointRun::fall_time(int point, const Outcome& outcome) const
-{
-    if (!is_unsafe(outcome.region)) {
-        return is_safe(outcome.region) ? infinity : unknown;
-    }
-    return with_theory(scene_.theory, [&]<Theory theory>() {
-        const double first_uplift =
-            with_excitation<double, theory>(point, [](const auto& excitation) {
+    const auto first_uplift = [this, point] {
+        return with_theory(scene_.theory, [&]<Theory theory>() {
+            return with_excitation<double, theory>(point, [](const auto& excitation) {
                 return excitation.next_uplift(true, excitation.motion.begin, -infinity);
             });
-        const Point& at = this->point(point);
-        const double forced = (outcome.phase - first_uplift) / at.frequency;
-        const double time = outcome.has(outcome_flag::fell)
-                                ? forced
-                                : forced + time_to_lie_flat<theory, double>(
-                                               outcome.end(), block_at_end(point, outcome));
-        return time * at.block.pace;
-    });
+        });
+    };
+    return {scene_, this->point(point), outcome, first_uplift};
 }
 
 void PointRun::add_contact(const Numerics& numerics, Outcomes& outcomes) const
@@ -390,6 +360,9 @@ void PointRun::add_contact(const Numerics& numerics, Outcomes& outcomes) const
         }
         outcomes[i].friction = is_known ? demand.friction : unknown;
         outcomes[i].normal = is_known ? demand.normal : unknown;
+        if (outcomes[i].normal <= 0) {
+            outcomes[i].flags |= status::lifts_off;
+        }
     }
 }
 
@@ -429,7 +402,6 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
     }
     if (outputs.contact) {
         points.add_contact(numerics, outcomes);
-        outcomes.outputs.contact = true;
     }
     return outcomes;
 }

@@ -96,18 +96,12 @@ public:
     /// the bound is the error of its margin. If the point is capped, its end is set to rest.
     bool settle_low_bounces(int point, Outcome& outcome) const;
 
-    /// d theta / d(p t) at the end, with the p of the side plus [rad].
-    double velocity(int point, const Outcome& outcome) const;
-
-    /// The largest |theta| / alpha (infinite if the block overturns), and the time from the first
-    /// uplift to |theta| = pi/2 [1/p] (infinite if it does not), both during the pulse and after
-    /// it; NaN without a verdict. Require the region, and the peak or the phase.
-    double peak(int point, const Outcome& outcome) const;
-    double fall_time(int point, const Outcome& outcome) const;
+    /// From which the fields of a point follow; the outcome must have the outputs that they need.
+    EndOfPoint end_of(int point, const Outcome& outcome) const;
 
     /// Sets what the contact must bear during the ground motion and after it, by a run of its own;
-    /// the normal force over that at rest. NaN for points without a verdict, and where this run has
-    /// another region than these outcomes. Only in the nonlinear theory.
+    /// the normal force over that at rest, and status::lifts_off. NaN for points without a verdict,
+    /// and where this run has another region than these outcomes. Only in the nonlinear theory.
     void add_contact(const Numerics& numerics, Outcomes& outcomes) const;
 
 private:

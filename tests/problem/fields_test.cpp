@@ -8,36 +8,44 @@
 namespace overturn {
 namespace {
 
-TEST(Fields, HaveNamesOfTheirOwnInTheOrderOfTheEnumerators)
+TEST(Fields, HaveNamesOfTheirOwn)
 {
-    const std::vector<std::string_view> names = field_names();
-    ASSERT_EQ(names.size(), count_of_fields);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        EXPECT_EQ(name_of(Field(i)), names[i]);
+    std::set<std::string_view> names;
+    for (const FieldTraits& traits : all_fields()) {
+        EXPECT_TRUE(names.insert(traits.name).second) << traits.name;
+        EXPECT_EQ(find_field(traits.name), &traits);
     }
-    EXPECT_EQ(std::set<std::string_view>(names.begin(), names.end()).size(), names.size());
-    EXPECT_EQ(name_of(Field::region), "region");
-    EXPECT_EQ(name_of(Field::status), "status");
-    EXPECT_EQ(name_of(Field::flip_pga), "flip_pga");
-    EXPECT_EQ(name_of(Field::evaluated), "evaluated");
+    EXPECT_EQ(find_field("regions"), nullptr);
 }
 
-TEST(Fields, OfASpectrumAreThoseBeforeTheFieldsOfABoundary)
+TEST(Fields, ThatAreKnownByNameHaveARow)
 {
-    const std::vector<std::string_view> names = spectrum_field_names();
-    EXPECT_EQ(names.front(), "region");
-    EXPECT_EQ(names.back(), "status");
-    for (const Field field : {Field::flip_amplitude, Field::unsafe_share, Field::evaluated}) {
-        EXPECT_EQ(std::count(names.begin(), names.end(), name_of(field)), 0);
+    for (const Field field :
+         {Field::region, Field::angle, Field::velocity, Field::margin, Field::error, Field::peak,
+          Field::fall_time, Field::friction, Field::normal, Field::impacts, Field::steps,
+          Field::status, Field::region_below, Field::flip_amplitude, Field::region_above,
+          Field::flip_pga, Field::unsafe_share, Field::undecided_share, Field::evaluated}) {
+        EXPECT_NE(find_field(field.name), nullptr) << field.name;
+    }
+}
+
+TEST(Fields, OfASpectrumHaveAValue)
+{
+    const std::vector<Field> of_spectrum = spectrum_fields();
+    EXPECT_EQ(of_spectrum.front(), Field::region);
+    for (const FieldTraits& traits : all_fields()) {
+        const bool is_of_point = traits.of == FieldOf::point || traits.of == FieldOf::filled_point;
+        EXPECT_EQ(std::ranges::count(of_spectrum, Field{traits.name}), is_of_point ? 1 : 0)
+            << traits.name;
     }
 }
 
 TEST(Fields, HaveArraysOfTheirType)
 {
     const std::size_t sizes[] = {1, 2, 4, 8}; // [bytes], in the order of FieldType
-    for (std::size_t i = 0; i < count_of_fields; ++i) {
-        const Field field = Field(i);
-        const FieldType type = traits_of(field).type;
+    for (const FieldTraits& traits : all_fields()) {
+        const Field field{traits.name};
+        const FieldType type = traits.type;
         EXPECT_EQ(not_computed(field, 3).index(), std::size_t(type)) << name_of(field);
         EXPECT_EQ(bytes_per_point(field), sizes[std::size_t(type)]) << name_of(field);
         std::visit([](const auto& values) { EXPECT_EQ(values.size(), 3u); },
@@ -47,8 +55,7 @@ TEST(Fields, HaveArraysOfTheirType)
 
 TEST(Fields, HaveUnitsOrCodes)
 {
-    for (std::size_t i = 0; i < count_of_fields; ++i) {
-        const FieldTraits& traits = traits_of(Field(i));
+    for (const FieldTraits& traits : all_fields()) {
         EXPECT_TRUE(!traits.units.empty() || !traits.flags.empty()) << traits.name;
         EXPECT_LE(traits.long_name.size(), 40u) << traits.name;
     }

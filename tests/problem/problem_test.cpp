@@ -159,7 +159,7 @@ TEST(Boundary, HasAPeakGroundAccelerationIfItIsGivenOrTheSizeIsKnown)
         fields(problem_of_grid({}, {axis("amplitude", {1, 2}), frequency, number("width", 0.4),
                                     number("height", 2), number("restitution", 0.9)})),
         with);
-    with.insert(with.end(), line_fields.begin(), line_fields.end());
+    with.insert(with.end(), {Field::unsafe_share, Field::undecided_share});
     EXPECT_EQ(fields(problem_of_grid(scene_of_three_records(),
                                      {number("motion", 1), axis("scale", {1, 2}), number("size", 2),
                                       number("slenderness", 0.2), number("restitution", 0.9)})),

@@ -168,7 +168,11 @@ Work work_from(const std::vector<std::string>& words)
         scene.theory = kind_from<Theory>(words[3]);
         work.kernel = kind_from<Kernel>(words[4]);
         for (std::size_t i = 7; i < words.size(); ++i) {
-            fields.push_back(kind_from<Field>(words[i], field_names()));
+            const FieldTraits* field = find_field(words[i]);
+            if (field == nullptr) {
+                throw UsageError("there is no field " + words[i]);
+            }
+            fields.push_back({field->name});
         }
     }
     if (!runs_here(work.kernel)) {

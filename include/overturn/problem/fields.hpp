@@ -1,41 +1,60 @@
-// The fields stored for a point of a spectrum or for a flip of a boundary: names, types and the
-// values that mean "not computed".
+// The fields stored for a point of a spectrum or for a flip of a boundary: names, types, values,
+// and the values that mean "not computed".
 #pragma once
 
+#include "overturn/integrate/outputs.hpp"
 #include "overturn/text/names.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <variant>
 #include <vector>
 
 namespace overturn {
 
-enum class Field {
-    region,
-    angle,
-    velocity,
-    margin,
-    error,
-    peak,
-    fall_time,
-    friction,
-    normal,
-    impacts,
-    steps,
-    status,
-    // Fields of a boundary:
-    flip_amplitude,
-    region_below,
-    region_above,
-    flip_pga,
-    // Fields of a line of a boundary under a record:
-    unsafe_share,
-    undecided_share,
-    // Added to a filled spectrum:
-    evaluated
+struct EndOfPoint;
+
+/// The name of a field.
+struct Field {
+    std::string_view name;
+
+    bool operator==(const Field&) const = default;
+
+    /// Those that are known by name outside their row.
+    static const Field region, angle, velocity, margin, error, peak, fall_time, friction, normal,
+        impacts, steps, status, flip_amplitude, region_below, region_above, flip_pga, unsafe_share,
+        undecided_share, evaluated;
+};
+
+inline constexpr Field Field::region{"region"};
+inline constexpr Field Field::angle{"angle"};
+inline constexpr Field Field::velocity{"velocity"};
+inline constexpr Field Field::margin{"margin"};
+inline constexpr Field Field::error{"error"};
+inline constexpr Field Field::peak{"peak"};
+inline constexpr Field Field::fall_time{"fall_time"};
+inline constexpr Field Field::friction{"friction"};
+inline constexpr Field Field::normal{"normal"};
+inline constexpr Field Field::impacts{"impacts"};
+inline constexpr Field Field::steps{"steps"};
+inline constexpr Field Field::status{"status"};
+inline constexpr Field Field::flip_amplitude{"flip_amplitude"};
+inline constexpr Field Field::region_below{"region_below"};
+inline constexpr Field Field::region_above{"region_above"};
+inline constexpr Field Field::flip_pga{"flip_pga"};
+inline constexpr Field Field::unsafe_share{"unsafe_share"};
+inline constexpr Field Field::undecided_share{"undecided_share"};
+inline constexpr Field Field::evaluated{"evaluated"};
+
+/// What has a value of a field.
+enum class FieldOf {
+    point,        ///< of a spectrum that is not filled
+    filled_point, ///< of any spectrum
+    filling,      ///< every point of a filled spectrum, without being requested
+    flip,         ///< of a boundary
+    line          ///< of a boundary under a record: the field lacks the dimension `crossing`
 };
 
 /// The values of one field in one tile, row by row.
@@ -55,38 +74,35 @@ struct FieldFlag {
     std::string_view meaning;
 };
 
-/// A field as it is stored.
+/// All that is known of a field.
 struct FieldTraits {
     std::string_view name; ///< in job files and result files
     FieldType type;
     std::string_view long_name;
     std::string_view units; ///< empty: codes
     std::string_view comment;
+    std::vector<bool Outputs::*> needs{};             ///< of the integration
+    double (*value)(const EndOfPoint& end) = nullptr; ///< of a point that is not filled
     std::vector<FieldFlag> flags{};
+    FieldOf of = FieldOf::point;
     bool has_bits = false; ///< the flags are bits that may be combined
 };
 
+/// All fields.
+std::span<const FieldTraits> all_fields();
+
+/// The field of this name, or nullptr.
+const FieldTraits* find_field(std::string_view name);
+
+/// The same for a field that is known to exist.
 const FieldTraits& traits_of(Field field);
 
-/// All fields, in the order of the enumerators.
-inline constexpr std::size_t count_of_fields = std::size_t(Field::evaluated) + 1;
-std::vector<std::string_view> field_names();
-
-/// The fields that a job can request: all except those of a boundary and `evaluated`.
-std::vector<std::string_view> spectrum_field_names();
+/// The fields that a job can request.
+std::vector<Field> spectrum_fields();
 
 inline std::string_view name_of(Field field)
 {
-    return traits_of(field).name;
-}
-
-/// The fields of a line of a boundary under a record.
-inline constexpr std::array line_fields{Field::unsafe_share, Field::undecided_share};
-
-/// Whether a field has one value per line of a boundary: it lacks the dimension `crossing`.
-constexpr bool is_of_line(Field field)
-{
-    return field == line_fields[0] || field == line_fields[1];
+    return field.name;
 }
 
 /// The value of a point that is not computed yet, in the type of the field.

@@ -1,0 +1,83 @@
+// What the forced stage of a point yields, from which the values of its fields follow.
+#pragma once
+
+#include "overturn/mechanics/block.hpp"
+#include "overturn/mechanics/region.hpp"
+#include "overturn/problem/fields.hpp"
+#include "overturn/problem/point.hpp"
+#include "overturn/problem/scene.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <limits>
+
+namespace overturn {
+
+/// The bits of Outcome::flags besides those of the field `status`, and sets of bits.
+namespace outcome_flag {
+inline constexpr std::uint8_t fell = 64;
+inline constexpr std::uint8_t in_doubt = 128; ///< only if the error is an output, see ForcedEnd
+/// The stored ones. resolve() sets `unresolved`; a point in `free_fall` is not integrated.
+inline constexpr std::uint8_t of_status = status::came_to_rest | status::cap_was_hit |
+                                          status::not_finite | status::unresolved |
+                                          status::free_fall | status::lifts_off;
+/// The integration was stopped, or did not begin: the state is meaningless.
+inline constexpr std::uint8_t without_end =
+    status::cap_was_hit | status::not_finite | status::free_fall;
+} // namespace outcome_flag
+
+/// The outcome of the forced stage of a point. A kernel writes the values of the second group only
+/// if they are outputs.
+struct Outcome {
+    double tilt;        ///< |theta| [rad]
+    double rate;        ///< d|theta| / d tau [rad]
+    double side;        ///< +1 or -1: the sign of theta
+    std::uint8_t flags; ///< of the field `status`, and outcome_flag
+
+    Region region;
+    double margin;         ///< [1]
+    double error;          ///< of the margin
+    double impacts;        ///< count
+    double steps;          ///< tried
+    double phase;          ///< end of the motion, or phase of the fall [rad or samples]
+    double peak;           ///< the largest |theta| [rad]
+    double lowest_turn;    ///< see ForcedEnd [rad]
+    double softest_impact; ///< see ForcedEnd [rad]
+    double last_impact;    ///< see ForcedEnd [rad]
+    double friction;       ///< see ContactDemand [1]
+    double normal;         ///< see ContactDemand [1]
+
+    State<double> end() const { return {tilt, rate, side}; }
+    bool has(std::uint8_t any_of_flags) const { return (flags & any_of_flags) != 0; }
+
+    /// The value of the field `impacts`. recorded: whether the ground motion is a record, under
+    /// which a block may be lifted again after a bounce series.
+    std::uint16_t stored_impacts(bool recorded) const
+    {
+        return !recorded && has(status::came_to_rest)
+                   ? impact_count::bounce_series
+                   : std::uint16_t(std::min(impacts, double(impact_count::largest)));
+    }
+
+    /// A magnitude at the end with the sign of theta; NaN if the integration did not reach the end.
+    double with_sign(double magnitude) const
+    {
+        return has(outcome_flag::without_end) ? std::numeric_limits<double>::quiet_NaN()
+               : side > 0                     ? magnitude
+                                              : 0.0 - magnitude; // not -0
+    }
+};
+
+/// The end of the ground motion at a point.
+struct EndOfPoint {
+    const Scene& scene;
+    const Point& point;
+    const Outcome& outcome;
+    std::function<double()> first_uplift; ///< its phase [rad or samples]
+
+    /// The block as seen from the side on which it ended.
+    Block<double> block() const { return seen_from(outcome.side, point.block); }
+};
+
+} // namespace overturn
