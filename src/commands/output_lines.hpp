@@ -25,11 +25,11 @@ inline void say(const std::string& line)
 /// The unit of a quantity after a number: begins with a blank, or is empty.
 inline std::string unit_text(const Quantity& quantity)
 {
-    return quantity.name == "pga"               ? " g"
-           : quantity.name == "pulse_frequency" ? " Hz"
-           : quantity.units == "1"              ? ""
-           : quantity.units == "s-1"            ? " 1/s"
-                                                : fmt::format(" {}", quantity.units);
+    const std::string_view printed = quantity.scope.printed_units;
+    return !printed.empty()          ? fmt::format(" {}", printed)
+           : quantity.units == "1"   ? ""
+           : quantity.units == "s-1" ? " 1/s"
+                                     : fmt::format(" {}", quantity.units);
 }
 
 inline void print_row(std::string_view name, std::string_view text)

@@ -48,8 +48,8 @@ public:
         if (job_.blocks) {
             add_table(job_.blocks->table);
         }
-        for (const std::string_view name : derived_coordinates) {
-            add_derived(name);
+        for (const Quantity& quantity : all_quantities()) {
+            add_derived(quantity);
         }
         if (!job_.motions.empty()) {
             add_motions();
@@ -151,9 +151,11 @@ private:
     }
 
     /// A boundary has flips instead of strengths, and nothing that follows from these.
-    void add_derived(std::string_view name)
+    void add_derived(const Quantity& quantity)
     {
-        if (is_known(name) || grid_.find(name) != nullptr || !derived_->has(name)) {
+        const std::string_view name = quantity.name;
+        if (!quantity.scope.is_stored || is_known(name) || grid_.find(name) != nullptr ||
+            !derived_->has(name)) {
             return;
         }
         Dimensions along;
@@ -163,7 +165,7 @@ private:
                 return;
             }
         }
-        add(name, along, quantity(name).long_name, quantity(name).units,
+        add(name, along, quantity.long_name, quantity.units,
             [derived = derived_, name] { return derived->of(name).values; });
     }
 

@@ -82,13 +82,10 @@ void add_outcome(hid_t file, const Job& job, const History& history)
         write_attribute(file, std::string(name).c_str(), coordinates.of(name).first());
     };
     for (const Quantity& quantity : all_quantities()) {
-        if (grid.find(quantity.name) != nullptr && quantity.role != Role::motion) {
+        if (grid.find(quantity.name) != nullptr
+                ? quantity.role != Role::motion
+                : quantity.scope.is_stored && coordinates.has(quantity.name)) {
             add(quantity.name);
-        }
-    }
-    for (const std::string_view name : derived_coordinates) {
-        if (grid.find(name) == nullptr && coordinates.has(name)) {
-            add(name);
         }
     }
     write_attribute(file, "region", std::int64_t(history.region));

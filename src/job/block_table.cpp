@@ -69,7 +69,7 @@ void expect_free_name(const BlockTable& blocks, const std::string& name, bool is
         }
     }
     const Quantity* const meant = find_quantity(boost::algorithm::to_lower_copy(name));
-    if (meant != nullptr && meant != same && applies_to(*meant, is_recorded)) {
+    if (meant != nullptr && meant != same && meant->applies_under(is_recorded)) {
         refuse_name(fmt::format(" is not the quantity {}, whose name is in lower case. Correct the "
                                 "name, or choose another one.",
                                 meant->name));
@@ -210,7 +210,7 @@ std::vector<Given> columns_of(const BlockTable& blocks, bool is_recorded)
     std::vector<Given> columns;
     for (const TableColumn& column : blocks.table.columns) {
         const Quantity* const quantity = find_quantity(column.name);
-        if (quantity != nullptr && applies_to(*quantity, is_recorded)) {
+        if (quantity != nullptr && quantity->applies_under(is_recorded)) {
             columns.push_back({quantity, column.name, Axis(column.numbers), GivenAs::column});
         }
     }

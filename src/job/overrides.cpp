@@ -124,7 +124,7 @@ void drop_keys(toml::table& job, const Path& path, const toml::table& given)
             erase(job, "scene", key);
         }
         drop_coordinates(job, path,
-                         [&](const Quantity& other) { return !applies_to(other, is_record); });
+                         [&](const Quantity& other) { return !other.applies_under(is_record); });
     }
     const auto pulse =
         enumerator_named<PulseKind>(given["scene"]["pulse"].value_or<std::string_view>(""));

@@ -95,7 +95,7 @@ std::vector<Given> given_coordinates(const Entry& job, bool is_recorded)
             if (!entry) {
                 continue;
             }
-            if (!applies_to(quantity(name), is_recorded)) {
+            if (!quantity(name).applies_under(is_recorded)) {
                 refuse(*entry, " has no meaning under a {}. Remove it.",
                        is_recorded ? "record" : "pulse");
             }

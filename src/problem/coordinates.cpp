@@ -5,14 +5,10 @@
 #include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <span>
 
 namespace overturn {
@@ -70,174 +66,6 @@ double lifting_pga(const Scene& scene, const Point& point)
 
 namespace {
 
-constexpr double two_pi = 2 * std::numbers::pi;
-
-using Values = std::array<double, 5>; // of the coordinates from which another one follows
-
-const Accelerogram& record_of(const Scene& scene, double motion)
-{
-    return *scene.records[Scene::record_index(motion)];
-}
-
-constexpr auto zero = [](const Scene&, const Values&) { return 0.0; };
-constexpr auto same = [](const Scene&, const Values& of) { return of[0]; };
-constexpr auto half = [](const Scene&, const Values& of) { return of[0] / 2; };
-constexpr auto inverse = [](const Scene&, const Values& of) { return 1 / of[0]; };
-constexpr auto product = [](const Scene&, const Values& of) { return of[0] * of[1]; };
-constexpr auto ratio = [](const Scene&, const Values& of) { return of[0] / of[1]; };
-constexpr auto sum = [](const Scene&, const Values& of) { return of[0] + of[1]; };
-constexpr auto difference = [](const Scene&, const Values& of) { return of[0] - of[1]; };
-/// Not std::hypot: that of the C library rounds differently on other processors. The unit, a power
-/// of two, keeps the squares within the range of doubles.
-constexpr auto distance = [](const Scene&, const Values& of) {
-    const double unit = std::ldexp(1.0, std::ilogb(std::max(std::abs(of[0]), std::abs(of[1]))));
-    const double x = of[0] / unit;
-    const double y = of[1] / unit;
-    return unit * std::sqrt(x * x + y * y);
-};
-constexpr auto arctan = [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]); };
-constexpr auto period = [](const Scene&, const Values& of) { return two_pi / (of[0] * of[1]); };
-
-/// p of a side: R and the radius of gyration k.
-double frequency_parameter_of_side(const Scene& scene, const Values& of)
-{
-    const double size = of[0];
-    const double gyration = of[1];
-    return std::sqrt(scene.gravity * size / (gyration * gyration + size * size));
-}
-
-/// A coordinate that follows from at most five others; the constant default of a quantity follows
-/// from none.
-struct Derivation {
-    std::string_view name;
-    std::array<std::string_view, 5> from;
-    double (*value)(const Scene& scene, const Values& of);
-    Under motion = Under::any_motion;
-};
-
-constexpr Derivation of_any_block[]{
-    {"half_width", {"width"}, half},
-    {"half_height", {"height"}, half},
-    {"slenderness",
-     {"aspect_ratio"},
-     [](const Scene&, const Values& of) { return std::atan(1 / of[0]); }},
-    {"amplitude", {"pga", "uplift_pga"}, ratio, Under::pulse},
-    {"pga", {"amplitude", "uplift_pga"}, product, Under::pulse},
-    {"scale", {"pga", "record_pga"}, ratio, Under::record},
-    {"pga", {"scale", "record_pga"}, product, Under::record},
-    {"record_pga",
-     {"motion", "direction"},
-     [](const Scene& scene, const Values& of) {
-         return record_of(scene, of[0]).in_direction(of[1]).peak();
-     },
-     Under::two_components},
-    {"record_pga",
-     {"motion"},
-     [](const Scene& scene, const Values& of) { return record_of(scene, of[0]).peak(); },
-     Under::record},
-    {"vertical_pga",
-     {"scale", "motion"},
-     [](const Scene& scene, const Values& of) {
-         return of[0] * record_of(scene, of[1]).upwards_peak();
-     },
-     Under::record},
-};
-
-/// b and h; alpha, R and p.
-constexpr Derivation of_symmetric_block[]{
-    {"slenderness", {"half_width", "half_height"}, arctan},
-    {"size", {"half_width", "half_height"}, distance},
-    {"size",
-     {"frequency_parameter"},
-     [](const Scene& scene, const Values& of) { return 3 * scene.gravity / (4 * of[0] * of[0]); }},
-    {"frequency_parameter",
-     {"size"},
-     [](const Scene& scene, const Values& of) {
-         return std::sqrt(3 * scene.gravity / (4 * of[0]));
-     }},
-    {"restitution",
-     {"restitution_of_maximum", "slenderness"},
-     [](const Scene&, const Values& of) { return of[0] * largest_restitution(of[1]); }},
-    {"uplift_pga",
-     {"slenderness"},
-     [](const Scene& scene, const Values& of) { return uplift_threshold(scene.theory, of[0]); }},
-    {"samples_per_unit",
-     {"motion", "frequency_parameter"},
-     [](const Scene& scene, const Values& of) {
-         return 1 / (of[1] * record_of(scene, of[0]).time_step());
-     },
-     Under::record},
-    {"frequency", {"pulse_period", "frequency_parameter"}, period, Under::pulse},
-    {"frequency",
-     {"pulse_frequency", "frequency_parameter"},
-     [](const Scene&, const Values& of) { return two_pi * of[0] / of[1]; },
-     Under::pulse},
-    {"pulse_period", {"frequency", "frequency_parameter"}, period, Under::pulse},
-};
-
-/// k, the height of the centre of mass, and the distances of its foot on the base from the corners;
-/// alpha, R, p and r_max.
-constexpr Derivation of_block_with_two_sides[]{
-    {"center_offset", {}, zero},
-    {"center_height", {"half_height"}, same},
-    {"radius_of_gyration",
-     {"half_width", "half_height"},
-     [](const Scene&, const Values& of) {
-         return std::sqrt((of[0] * of[0] + of[1] * of[1]) / 3); // of a uniform box
-     }},
-    {"incline", // of a block that is given by angles and distances
-     {"size_plus", "slenderness_plus", "size_minus", "slenderness_minus"},
-     [](const Scene&, const Values& of) {
-         const auto [plus, alpha_plus, minus, alpha_minus, _] = of;
-         return std::atan((plus * std::cos(alpha_plus) - minus * std::cos(alpha_minus)) /
-                          (plus * std::sin(alpha_plus) + minus * std::sin(alpha_minus)));
-     }},
-    {"incline", {}, zero},
-    {"base_plus", {"half_width", "center_offset"}, difference},
-    {"base_minus", {"half_width", "center_offset"}, sum},
-    {"slenderness_plus",
-     {"base_plus", "center_height", "incline"},
-     [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]) - of[2]; }},
-    {"slenderness_minus",
-     {"base_minus", "center_height", "incline"},
-     [](const Scene&, const Values& of) { return std::atan(of[0] / of[1]) + of[2]; }},
-    {"size_plus", {"base_plus", "center_height"}, distance},
-    {"size_minus", {"base_minus", "center_height"}, distance},
-    {"frequency_parameter", {"size_plus", "radius_of_gyration"}, frequency_parameter_of_side},
-    {"frequency_parameter_minus",
-     {"size_minus", "radius_of_gyration"},
-     frequency_parameter_of_side},
-    {"moment_kept", // J / m: the angular momentum that an impact keeps, over m omega
-     {"radius_of_gyration", "size_plus", "size_minus", "slenderness_plus", "slenderness_minus"},
-     [](const Scene&, const Values& of) {
-         const auto [k, plus, minus, alpha_plus, alpha_minus] = of;
-         return k * k + plus * minus * std::cos(alpha_plus + alpha_minus);
-     }},
-    {"gyration_over_size", {"radius_of_gyration", "size_plus"}, ratio},
-    {"center_over_half_height", {"center_height", "half_height"}, ratio},
-    {"largest_restitution",
-     {"moment_kept", "radius_of_gyration", "size_plus", "size_minus"},
-     [](const Scene&, const Values& of) {
-         const auto [kept, k, plus, minus, _] = of;
-         return kept * kept / ((k * k + plus * plus) * (k * k + minus * minus));
-     }},
-    {"restitution", {"restitution_of_maximum", "largest_restitution"}, product},
-    {"uplift_pga",
-     {"slenderness_plus", "slenderness_minus"},
-     [](const Scene& scene, const Values& of) {
-         return uplift_threshold(scene.theory, std::min(of[0], of[1]));
-     }},
-    {"pulse_period", {"pulse_frequency"}, inverse, Under::pulse},
-    {"angular_frequency",
-     {"pulse_period"},
-     [](const Scene&, const Values& of) { return two_pi / of[0]; },
-     Under::pulse},
-    {"samples_per_second",
-     {"motion"},
-     [](const Scene& scene, const Values& of) { return 1 / record_of(scene, of[0]).time_step(); },
-     Under::record},
-};
-
 /// The coordinates on the way from a coordinate to those that it may follow from.
 using Path = std::vector<std::string_view>;
 
@@ -251,15 +79,11 @@ const Derivation* derivation_of(std::string_view name, const Scene& scene, const
         return other.empty() || grid.find(other) != nullptr ||
                (!is_one_of(other, path) && derivation_of(other, scene, grid, path) != nullptr);
     };
-    using Table = std::span<const Derivation>;
-    for (const Table table :
-         {Table(of_any_block),
-          grid.has_two_sides() ? Table(of_block_with_two_sides) : Table(of_symmetric_block)}) {
-        for (const Derivation& each : table) {
-            if (each.name == name && scene.is_under(each.motion) &&
-                std::ranges::all_of(each.from, is_known)) {
-                return &each;
-            }
+    const Sides other_sides = grid.has_two_sides() ? Sides::equal : Sides::two;
+    for (const Derivation& each : derivations_of(name)) {
+        if (each.sides != other_sides && scene.is_under(each.motion) &&
+            std::ranges::all_of(each.from, is_known)) {
+            return &each;
         }
     }
     return nullptr;
@@ -342,7 +166,7 @@ const CoordinateValues& Coordinates::of(std::string_view name) const
         result.values = column->values.values(begin, begin + count);
     } else {
         const Derivation& derivation = *derivation_of(name, scene_, grid_);
-        std::vector<Values> points(1);
+        std::vector<Derivation::Values> points(1);
         for (std::size_t k = 0; k < derivation.from.size() && !derivation.from[k].empty(); ++k) {
             const std::vector<double> values = along(result.dimensions, derivation.from[k]);
             points.resize(values.size());
@@ -351,7 +175,7 @@ const CoordinateValues& Coordinates::of(std::string_view name) const
             }
         }
         result.values =
-            mapped(points, [&](const Values& of) { return derivation.value(scene_, of); });
+            mapped(points, [&](const auto& of) { return derivation.value(scene_, of); });
     }
     return known_.emplace(name, std::move(result)).first->second;
 }

@@ -42,7 +42,7 @@ int order_of(std::string_view dimension, bool is_recorded)
     const auto place = [](std::string_view name) {
         return int(find_quantity(name) - all_quantities().data());
     };
-    const bool is_size = dimension == "size" || dimension == "frequency_parameter";
+    const bool is_size = are_equivalent(dimension, "size");
     return dimension == table_dimension ? place("width")
            : is_recorded && is_size     ? int(all_quantities().size())
                                         : place(dimension);
@@ -300,13 +300,6 @@ void expect_valid(const Scene& scene, const Grid& grid)
 }
 
 } // namespace
-
-bool applies_to(const Quantity& quantity, bool is_recorded)
-{
-    const bool is_of_record = quantity.role == Role::motion || quantity.name == "scale";
-    const bool is_of_pulse = quantity.role == Role::rate || quantity.name == "amplitude";
-    return quantity.is_coordinate() && !(is_recorded ? is_of_pulse : is_of_record);
-}
 
 Grid grid_of(const Scene& scene, std::vector<Given> given)
 {

@@ -81,7 +81,7 @@ const Column* Grid::axis_or_number(Role role) const
 bool Grid::has_two_sides() const
 {
     return std::ranges::any_of(all_quantities(), [&](const Quantity& quantity) {
-        return describes_two_sides(quantity.name) && find(quantity.name) != nullptr;
+        return (quantity.scope.shapes & shape::two_sides) != 0 && find(quantity.name) != nullptr;
     });
 }
 

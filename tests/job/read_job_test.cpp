@@ -157,7 +157,7 @@ TEST(TheKeysOfAJob, CanBeOverridden)
                         "plane.size_plus=1",          "plane.size_minus=1",
                         "plane.radius_of_gyration=1", "plane.pga=1",
                         "plane.pulse_period=1"};
-        } else if (describes_two_sides(name)) {
+        } else if ((quantity(name).scope.shapes & shape::two_sides) != 0) {
             settings = {"plane.width=2", "plane.height=3", "plane.pga=1", "plane.pulse_period=1"};
         }
         const AxisList values = name == "direction" ? AxisList{0, 180} : AxisList{0.25, 0.5};

@@ -407,7 +407,7 @@ TEST_F(Columns, WithTheNameOfAQuantityInOtherLettersAreRefused)
         std::string name(quantity.name);
         name[0] = char(std::toupper(static_cast<unsigned char>(name[0])));
         const std::string message = refusal(exit_code::job, [&] { table(with_column(name)); });
-        if (applies_to(quantity, false)) {
+        if (quantity.applies_under(false)) {
             EXPECT_THAT(message, HasSubstr("t.csv:1:4: " + name + " is not the quantity " +
                                            std::string(quantity.name)));
         } else {

@@ -379,18 +379,18 @@ TEST(CornersOf, AGridAreTheEndsOfItsAxesAndAllRowsOfATable)
 TEST(Quantity, AppliesToPulsesOrToRecordsOrToBoth)
 {
     for (const char* name : {"width", "size", "restitution", "pga"}) {
-        EXPECT_TRUE(applies_to(quantity(name), false)) << name;
-        EXPECT_TRUE(applies_to(quantity(name), true)) << name;
+        EXPECT_TRUE(quantity(name).applies_under(false)) << name;
+        EXPECT_TRUE(quantity(name).applies_under(true)) << name;
     }
     for (const char* name : {"amplitude", "frequency", "pulse_period", "pulse_frequency"}) {
-        EXPECT_TRUE(applies_to(quantity(name), false)) << name;
-        EXPECT_FALSE(applies_to(quantity(name), true)) << name;
+        EXPECT_TRUE(quantity(name).applies_under(false)) << name;
+        EXPECT_FALSE(quantity(name).applies_under(true)) << name;
     }
     for (const char* name : {"motion", "scale"}) {
-        EXPECT_FALSE(applies_to(quantity(name), false)) << name;
-        EXPECT_TRUE(applies_to(quantity(name), true)) << name;
+        EXPECT_FALSE(quantity(name).applies_under(false)) << name;
+        EXPECT_TRUE(quantity(name).applies_under(true)) << name;
     }
-    EXPECT_FALSE(applies_to(quantity("gravity"), false));
+    EXPECT_FALSE(quantity("gravity").applies_under(false));
 }
 
 } // namespace

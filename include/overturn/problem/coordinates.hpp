@@ -35,24 +35,6 @@ double pga_of_unit(const Scene& scene, const Point& point);
 /// block at rest; infinite if none does.
 double lifting_pga(const Scene& scene, const Point& point);
 
-/// The coordinates that result files store in addition to those given in the job, if they follow
-/// from these.
-inline constexpr std::string_view derived_coordinates[]{"slenderness",
-                                                        "size",
-                                                        "slenderness_plus",
-                                                        "slenderness_minus",
-                                                        "size_plus",
-                                                        "size_minus",
-                                                        "frequency_parameter",
-                                                        "frequency_parameter_minus",
-                                                        "largest_restitution",
-                                                        "restitution",
-                                                        "amplitude",
-                                                        "scale",
-                                                        "pga",
-                                                        "frequency",
-                                                        "pulse_period"};
-
 /// The values of a coordinate in a box of points. It may vary along some of the dimensions only.
 struct CoordinateValues {
     std::vector<std::size_t> dimensions; ///< along which it varies, slowest first
@@ -74,18 +56,7 @@ public:
     /// The dimensions along which a coordinate varies, slowest first; has(name) must be true.
     std::vector<std::size_t> dimensions_of(std::string_view name) const;
 
-    /// The values of a coordinate; has(name) must be true. Names are those of quantities, and:
-    ///   record_pga        the peak of the record over g, not scaled, in the direction of the point
-    ///                     [1]; result files store that of the first component
-    ///   uplift_pga        the ground acceleration over g that lifts the block at rest [1]
-    ///   vertical_pga      the peak of the scaled vertical motion over g [1]
-    ///   samples_per_unit  samples of the record per time unit 1/p [1]
-    ///   angular_frequency, samples_per_second  of the motion of a block with two different sides
-    ///                     [1/s]
-    ///   moment_kept, gyration_over_size, center_over_half_height  J / m [m2], k / R+ and the
-    ///   height
-    ///                     of the centre of mass over half the height [1] of a block with two
-    ///                     different sides, if it has them
+    /// The values of a coordinate; has(name) must be true. See derivations_of() for the names.
     const CoordinateValues& of(std::string_view name) const;
 
     /// All points of the box, row by row.

@@ -40,10 +40,6 @@ private:
     std::string quantity_;
 };
 
-/// Whether a job with this motion may give the quantity: there is no factor on a pulse, and no
-/// period of a record.
-bool applies_to(const Quantity& quantity, bool is_recorded);
-
 /// The grid of these quantities, which must describe the block, its loss at impacts, and the
 /// strength and the rate of the motion, each in one way. The values must be allowed, each on its
 /// own. Under records, one quantity is the motion. Throws GivenError.

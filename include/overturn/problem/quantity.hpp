@@ -1,7 +1,10 @@
-// The quantities that describe a block, its ground motion and the integration: names, units and
-// allowed values.
+// The quantities that describe a block, its ground motion and the integration: names, units,
+// allowed values, and how they follow from each other.
 #pragma once
 
+#include "overturn/problem/scene.hpp"
+
+#include <array>
 #include <cmath>
 #include <span>
 #include <string>
@@ -27,6 +30,26 @@ struct Interval {
     bool (*contains)(double);
 };
 
+/// The ways to describe a block, each a bit, and what only blocks with two different sides have.
+namespace shape {
+inline constexpr unsigned angle = 1;   ///< and the half diagonal
+inline constexpr unsigned lengths = 2; ///< of a box, and where its centre of mass is
+inline constexpr unsigned sides = 4;   ///< angles and distances of both
+inline constexpr unsigned two_sides = 8;
+} // namespace shape
+
+/// The blocks to which a derivation applies.
+enum class Sides { any, equal, two };
+
+/// How a coordinate follows from at most five others; a constant default follows from none.
+struct Derivation {
+    using Values = std::array<double, 5>;
+    std::array<std::string_view, 5> from;
+    double (*value)(const Scene& scene, const Values& of) = nullptr;
+    Sides sides = Sides::any;
+    Under motion = Under::any_motion;
+};
+
 /// A quantity as it is named in job files, tables and result files.
 struct Quantity {
     std::string_view name;
@@ -36,8 +59,25 @@ struct Quantity {
     Interval interval;          ///< of the allowed values
     std::string_view reason;    ///< for the interval
 
+    struct Scope {
+        std::string_view same_as{};       ///< another spelling of that quantity
+        unsigned shapes = 0;              ///< see shape
+        Under motion = Under::any_motion; ///< under which a job may give it
+        bool is_stored = false;           ///< also if it is not given but follows from what is
+        std::string_view printed_units{}; ///< beside numbers in sentences, if not `units`
+    } scope{};
+
+    Derivation follows[3]{}; ///< in this order; the first possible one applies
+
     bool allows(double value) const { return !std::isnan(value) && interval.contains(value); }
     bool is_coordinate() const { return role != Role::derived && role != Role::setting; }
+
+    /// Whether a job with this motion may give the quantity: there is no factor on a pulse, and no
+    /// period of a record.
+    bool applies_under(bool is_recorded) const
+    {
+        return is_coordinate() && scope.motion != (is_recorded ? Under::pulse : Under::record);
+    }
 
     /// Why a value that is not allowed is refused, as a text that follows the name.
     std::string refusal_of(double value) const;
@@ -52,11 +92,21 @@ const Quantity* find_quantity(std::string_view name);
 /// The same for a name that is known to exist.
 const Quantity& quantity(std::string_view name);
 
+/// How a coordinate may follow from others: that of a quantity, or one of
+///   record_pga        the peak of the record over g, not scaled, in the direction of the point
+///                     [1]; result files store that of the first component
+///   uplift_pga        the ground acceleration over g that lifts the block at rest [1]
+///   vertical_pga      the peak of the scaled vertical motion over g [1]
+///   samples_per_unit  samples of the record per time unit 1/p [1]
+///   angular_frequency, samples_per_second  of the motion of a block with two different sides
+///                     [1/s]
+///   moment_kept, gyration_over_size, center_over_half_height  J / m [m2], k / R+ and the height of
+///                     the centre of mass over half the height [1] of a block with two different
+///                     sides, if it has them
+std::span<const Derivation> derivations_of(std::string_view coordinate);
+
 /// Whether the two are equal, or one follows from the other.
 bool are_equivalent(std::string_view one, std::string_view other);
-
-/// Whether only blocks with two different sides are described by this quantity.
-bool describes_two_sides(std::string_view name);
 
 /// Whether a point is described by at most one of these two quantities: they are
 /// equivalent, or describe a block in different ways.
