@@ -46,45 +46,31 @@ def thinned(cells):
     return cells[::-(-len(cells) // MOST_CELLS)]
 
 
-def widened(mask):
-    """Returns the mask extended by all neighbours, including diagonal ones."""
-    wide = mask.copy()
-    wide[1:] |= mask[:-1]
-    wide[:-1] |= mask[1:]
-    wider = wide.copy()
-    wider[:, 1:] |= wide[:, :-1]
-    wider[:, :-1] |= wide[:, 1:]
-    return wider
+def numbered(mask):
+    """Returns the number of the connected part of each cell of the mask, in which diagonal neighbours are connected:
+    1, 2, ...; 0 outside the mask."""
+    from scipy import ndimage  # slow to import, and few pictures need it
+    return ndimage.label(mask, np.ones((3, 3)))[0]
 
 
 def connected(mask, start):
     """Returns the part of the mask that is connected to a given cell."""
-    piece = np.zeros(mask.shape, bool)
-    piece[tuple(start)] = True
-    while True:
-        grown = widened(piece) & mask
-        if (grown == piece).all():
-            return piece
-        piece = grown
+    numbers = numbered(mask)
+    return numbers == numbers[tuple(start)]
 
 
 def pieces(mask, least):
     """Yields the connected parts of at least `least` cells."""
-    rest = mask.copy()
-    while np.count_nonzero(rest) >= least:
-        piece = connected(rest, np.argwhere(rest)[0])
-        rest &= ~piece
-        if np.count_nonzero(piece) >= least:
-            yield piece
+    numbers = numbered(mask)
+    for number in np.flatnonzero(np.bincount(numbers[mask]) >= max(least, 1)):
+        yield numbers == number
 
 
 def roomiest_cell(mask):
     """Returns the cell farthest from the complement of the mask; among several, a central one."""
-    core = mask
-    while core.any():
-        last = core
-        core = ~widened(~np.pad(core, 1))[1:-1, 1:-1]
-    cells = np.argwhere(last)
+    from scipy import ndimage
+    distance = ndimage.distance_transform_cdt(np.pad(mask, 1))[1:-1, 1:-1]
+    cells = np.argwhere(distance == distance.max())
     return cells[np.argmin(np.linalg.norm(cells - np.median(cells, axis=0), axis=1))]
 
 
