@@ -12,6 +12,7 @@ import h5py
 import numpy as np
 from matplotlib import colors
 from tool import JOBS, InAFolder  # first: adds the package to the path
+import overturn
 from overturn.captions import panel_titles
 from overturn.choice import sheet_of
 from overturn.plot import spectra
@@ -432,10 +433,14 @@ class TestARefusal(Picture):
 
     def test_of_another_format(self):
         self.spectrum([[S]])
-        for version, words in ((2, "the overturn that wrote it"), (5, "a newer overturn")):
-            self.change(lambda file: file.attrs.update({"format_version": version}))
-            self.refuses(74, f"has format version {version}; this tool reads versions 3 and 4. Use the tools of "
-                         f"{words}", "spectrum.h5")
+        for version, advice in ((2, "Read it with the overturn that wrote it, or compute it again"),
+                                (3, "Read it with overturn 2.0, or compute it again with this version."),
+                                (5, "Use a newer overturn.")):
+            words = f"has format version {version}, but this version of overturn reads version 4. {advice}"
+            self.change(lambda file: file.attrs.update({"format_version": version, "program_version": "1.0.0"}))
+            self.refuses(74, words, "spectrum.h5")
+            with self.assertRaisesRegex(ValueError, re.escape(words)):
+                overturn.open(self.folder / "spectrum.h5")
 
     def test_of_a_truncated_file(self):
         self.spectrum(np.zeros((50, 50)))

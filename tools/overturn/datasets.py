@@ -24,13 +24,13 @@ def open(path: str | os.PathLike[str]) -> xarray.Dataset:
         raise ImportError(f"{error} (Python: {sys.executable}). Install xarray and h5py (Debian: "
                           "python3-xarray and python3-h5py, for /usr/bin/python3).", name=error.name) from error
     from overturn.lazy_variables import variable
-    from overturn.result_file import FORMATS, Result
+    from overturn.result_file import FORMAT, Result, other_format
     file = h5py.File(path)
     try:
         if "program_version" not in file.attrs:
             raise ValueError(f"\"{path}\" was not written by overturn.")
-        if (version := file.attrs.get("format_version", 1)) not in FORMATS:
-            raise ValueError(f"\"{path}\" has format version {version}; this version of overturn reads 3 and 4.")
+        if (version := file.attrs.get("format_version", 1)) != FORMAT:
+            raise ValueError(other_format(path, version))
         result = Result(file)
         variables = {name: variable(result, name) for name in result}
     except Exception:

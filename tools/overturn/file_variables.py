@@ -1,5 +1,4 @@
-"""The variables of a result file by name, in the names and shapes of format 4, whether it has this format or
-format 3."""
+"""The variables of a result file by name."""
 
 from collections.abc import Mapping
 
@@ -11,12 +10,11 @@ ATTRIBUTES_OF_NETCDF = ("CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "_E
 
 
 class Variable:
-    """Values along named dimensions. `hidden` are further dimensions of `data`, of length 1."""
+    """Values along named dimensions."""
 
-    def __init__(self, dimensions, data, attrs, hidden=()):
-        self.data, self.attrs, self.hidden = data, attrs, hidden
-        self.dimensions = tuple(dimensions)
-        self.shape = tuple(size for axis, size in enumerate(data.shape) if axis not in hidden)
+    def __init__(self, dimensions, data, attrs):
+        self.data, self.attrs = data, attrs
+        self.dimensions, self.shape = tuple(dimensions), data.shape
 
     @property
     def dtype(self):
@@ -24,15 +22,11 @@ class Variable:
 
     def __getitem__(self, index):
         """Returns an array; `index` has up to one integer or slice per dimension."""
-        given = list(index if isinstance(index, tuple) else (index,))[:len(self.shape)]
-        given += [slice(None)] * (len(self.shape) - len(given))
-        return np.asarray(self.data[tuple(0 if axis in self.hidden else given.pop(0)
-                                          for axis in range(len(self.data.shape)))])
+        return np.asarray(self.data[(index if isinstance(index, tuple) else (index,))[:len(self.shape)]])
 
     def rows_of_chunk(self, dimension):
         """Returns the extent of a chunk along one dimension."""
-        axis = [i for i in range(len(self.data.shape)) if i not in self.hidden][self.dimensions.index(dimension)]
-        return self.data.chunks[axis] if self.data.chunks else 64
+        return self.data.chunks[self.dimensions.index(dimension)] if self.data.chunks else 64
 
     @property
     def fill(self):
@@ -62,8 +56,6 @@ class Result(Mapping):
                 raise OSError(f"\"{file.filename}\" lacks run/checksum, which marks the computed tiles")
             self.dimensions = tuple(text_of(checksums, "dimensions").split())
             self.tile = tuple(int(side) for side in checksums.attrs.get("tile_shape", ()))
-        if self.attrs.get("format_version") == 3:
-            present_as_format_4(self)
 
     def __getitem__(self, name):
         return self.variables[name]
@@ -131,58 +123,3 @@ def variable_of(data):
         texts = [row.tobytes().rstrip(b"\0").decode(errors="replace") for row in data[...].reshape(-1, data.shape[-1])]
         return Variable(names[:-1], np.array(texts, object).reshape(data.shape[:-1]), attributes_of(data))
     return Variable(names, data, attributes_of(data))
-
-
-def present_as_format_4(result):
-    """Renames variables, and hides dimensions of length 1 other than the last two: format 3 had them for single
-    values."""
-    variables = result.variables
-    names = {}
-    if "restitution" in variables and variables["restitution"].attrs.pop("of", "") == "maximum":
-        names["restitution"] = "restitution_of_maximum"
-    if "restitution" in variables and not names:
-        variables.pop("restitution_ratio", None)  # the same
-    names["restitution_ratio"] = "restitution"
-    if "pga" in variables and variables["pga"].dimensions == ("motion",):
-        names |= {"pga": "record_pga", "scaled_pga": "pga"}
-    single = {name for name in result.dimensions[:-2] if result.sizes[name] == 1}
-
-    def renamed(all_names):
-        return [names.get(name, name) for name in all_names]
-
-    def presented(variable):
-        hidden = [axis for axis, name in enumerate(variable.dimensions) if name in single]
-        return Variable(renamed(name for name in variable.dimensions if name not in single), variable.data,
-                        variable.attrs, hidden)
-    result.variables = {names.get(name, name): presented(each) for name, each in variables.items()}
-    result.coordinates = [name for name in dict.fromkeys(renamed(result.coordinates)) if name in result.variables]
-    kept = [axis for axis, name in enumerate(result.dimensions) if name not in single]
-    result.dimensions = tuple(renamed(result.dimensions[axis] for axis in kept))
-    result.tile = tuple(result.tile[axis] for axis in kept)
-    if "motion_number" in result.variables:  # of blocks with motions of their own
-        numbers = result.variables.pop("motion_number")
-        result.coordinates.remove("motion_number")
-        for name, each in result.variables.items():
-            if each.dimensions == ("motion",):
-                result.variables[name] = Variable(numbers.dimensions, each[:][numbers[:].astype(int) - 1], each.attrs)
-    for name, new in (("half_width", "half_width"), ("half_height", "half_height"), ("half_diagonal", "size")):
-        if name in result.attrs:
-            value = result.attrs.pop(name)
-            if result.tile:
-                result.variables[new] = Variable((), np.array(value), {"units": "m"})
-                result.coordinates.append(new)
-            else:  # of a history
-                result.attrs[new] = value
-    if result.text("kind") == "rocking history":
-        add_derived(result.attrs)
-
-
-def add_derived(attrs):
-    """Adds what format 4 says of the point of a history in addition."""
-    if "size" in attrs:
-        attrs.setdefault("frequency_parameter", np.sqrt(3 * attrs["gravity"] / (4 * attrs["size"])))
-    if {"frequency", "frequency_parameter"} <= attrs.keys():
-        attrs.setdefault("pulse_period", 2 * np.pi / (attrs["frequency"] * attrs["frequency_parameter"]))
-    if "amplitude" in attrs:
-        alpha = attrs["slenderness"]
-        attrs.setdefault("pga", attrs["amplitude"] * (alpha if attrs["theory"] == "linear" else np.tan(alpha)))

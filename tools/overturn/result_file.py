@@ -8,7 +8,7 @@ from overturn.file_variables import Result, text_of
 from overturn.tool import ToolError
 
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
-FORMATS = (3, 4)
+FORMAT = 4
 SPECTRUM = "overturning spectrum"  # a kind of file
 MOST_LETTERS = 240  # of a title: two to four lines of a picture
 
@@ -75,12 +75,18 @@ def open_result(path, kinds, wanted):
         raise ToolError(f"cannot read \"{path}\": {error.strerror or error}.") from error
     if text_of(file, "kind") not in ((kinds,) if isinstance(kinds, str) else kinds):
         raise ToolError(f"\"{path}\" is not {wanted}.")
-    version = file.attrs.get("format_version", 1)
-    if version not in FORMATS:
-        raise ToolError(f"\"{path}\" has format version {version}; this tool reads versions 3 and 4. Use the tools of "
-                        f"{'a newer overturn' if version > FORMATS[-1] else 'the overturn that wrote it'}.")
+    if (version := file.attrs.get("format_version", 1)) != FORMAT:
+        raise ToolError(other_format(path, version))
     with damage_reported(path):
         return Result(file)
+
+
+def other_format(path, version):
+    """Returns the message about a file of another format."""
+    advice = ("Use a newer overturn" if version > FORMAT else
+              f"Read it with {'overturn 2.0' if version == 3 else 'the overturn that wrote it'}, or compute it again "
+              "with this version")
+    return f"\"{path}\" has format version {version}, but this version of overturn reads version {FORMAT}. {advice}."
 
 
 def path_of(result):

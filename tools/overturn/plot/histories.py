@@ -86,8 +86,7 @@ class History:
     def __init__(self, file, start, until, units=JOB):
         self.is_recorded = is_recorded(file)
         panels = RECORD_PANELS if self.is_recorded else PULSE_PANELS
-        # Histories from before 2.0 and those in the linear theory have no friction.
-        has_friction = "friction" in file and not is_linear(file)
+        has_friction = not is_linear(file)
         self.panels = [panel for panel in panels if panel[0] != "friction" or has_friction]
         self.is_in_seconds = self.is_recorded or units == PHYSICAL
         sides = [float(file.attrs[name]) for name in slendernesses(file)]
@@ -240,8 +239,7 @@ def describe(file, units=JOB):
     """Returns the point and its outcome in one line."""
     attributes = file.attrs
     region = int(attributes["region"])
-    # Before 2.0, the region was that of the curve.
-    is_decided = region in REGIONS and region != UNDECIDED and (is_certain(file) or "curve_is_certain" in attributes)
+    is_decided = region in REGIONS and region != UNDECIDED
     outcome = f"{meaning_of(region, ground_word(file))} ({REGIONS[region][0]})" if is_decided else "undecided"
     if not is_certain(file):
         outcome += "; the curve is uncertain"
