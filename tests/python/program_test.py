@@ -197,7 +197,7 @@ class AResultFile(InAFolder):
     def test_of_another_program_is_refused(self):
         with h5py.File("other.h5", "w") as file:
             file["x"] = [1.0]
-        with self.assertRaisesRegex(ValueError, "was not written by overturn"):
+        with self.assertRaisesRegex(ValueError, "is not a result of overturn"):
             overturn.open("other.h5")
         with self.assertRaises(OSError):
             overturn.open("missing.h5")

@@ -10,8 +10,8 @@ import numpy as np
 from tool import JOBS, InAFolder  # first: adds the package to the path
 from matplotlib import pyplot
 from overturn import plot
+from overturn.captions import told_apart
 from overturn.plot.headings import width_of, wrapped
-from overturn.result_file import told_apart
 
 TITLE = "A marble figure of 2.1 m, which leans by 1.5 degrees, and of which nobody remembers whom it represents"
 JOB = f"""

@@ -18,9 +18,9 @@ from matplotlib.text import Text
 from tool import InOneFolder, run_overturn  # first: adds the package to the path
 import overturn
 from overturn.captions import subtitle
-from overturn.file_variables import Result
 from overturn.motion_words import FLOOR_MEASURES, worded
 from overturn.plot import risks
+from overturn.result_file import Result
 from overturn.spectrum_file import Plane
 from overturn.units import name_axes
 

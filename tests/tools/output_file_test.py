@@ -16,6 +16,7 @@ from matplotlib import pyplot
 from tool import JOBS, InAFolder, new_folder, run_overturn, run_tool  # first: adds the package to the path
 from overturn import csv_table
 from overturn.output_file import OutputError, new_file, write_text
+from overturn.result_file import Variable
 
 
 class TestAWrittenFile(InAFolder):
@@ -142,7 +143,7 @@ class TestAWrittenFile(InAFolder):
             self.assertEqual(str(raised.exception), f'cannot write "{self.folder / path}": {reason}.')
 
     def test_is_not_blamed_for_an_error_of_reading(self):
-        with unittest.mock.patch.object(csv_table, "read_field", side_effect=OSError("Can't read data")):
+        with unittest.mock.patch.object(Variable, "__getitem__", side_effect=OSError("Can't read data")):
             run = self.run_tool("to_csv", "result.h5")
         self.assertEqual(run.returncode, 74)
         self.assertIn('"result.h5" is damaged: Can\'t read data', run.stderr)

@@ -11,7 +11,7 @@ from tool import JOBS, InAFolder  # first: adds the package to the path
 import overturn
 from matplotlib import pyplot
 from overturn.plot import histories
-from overturn.result_file import open_result
+from overturn.result_file import HISTORY, open_result
 
 JOB = """
     title = "A job"
@@ -27,7 +27,7 @@ IMPACT = 1  # as numbered in the file
 
 
 def open_history(path):
-    return open_result(path, "rocking history", "a history")
+    return open_result(path, HISTORY)
 
 
 class TestTheMotionOfAHistory(InAFolder):

@@ -17,7 +17,8 @@ from overturn.captions import panel_titles
 from overturn.choice import sheet_of
 from overturn.plot import spectra
 from overturn.regions import REGIONS
-from overturn.spectrum_file import Axis, Plane, open_spectrum
+from overturn.result_file import SPECTRUM, open_result
+from overturn.spectrum_file import Axis, Plane
 from overturn.ticks import log_ticks
 from overturn.units import axes_of_plane
 
@@ -192,7 +193,7 @@ class TestTheMap(Picture):
             pixels = int(generator.integers(1, 40))
             codes = generator.choice([S, S_PLUS, F_MINUS, UNDECIDED, NOT_COMPUTED], sizes, p=(.5, .3, .1, .05, .05))
             self.spectrum(codes)
-            with open_spectrum(self.folder / "spectrum.h5") as file:
+            with open_result(self.folder / "spectrum.h5", SPECTRUM) as file:
                 plane = Plane(file, {"slenderness": 0, "restitution_of_maximum": 0}, "frequency", "amplitude")
                 across, up = axes_of_plane(plane)
                 shown = plane.read_regions(up, across, pixels)
@@ -371,7 +372,7 @@ class TestSeveralSpectra(Picture):
     def test_of_a_table_of_twenty_blocks_are_all_drawn_and_named(self):
         self.overturn("run", "spectrum.h5", "plane.pulse_period.count=3", "plane.pga.count=3",
                       job=JOBS / "statues.toml")
-        with open_spectrum(self.folder / "spectrum.h5") as file:
+        with open_result(self.folder / "spectrum.h5", SPECTRUM) as file:
             planes, columns, left_out = sheet_of(file, argparse.Namespace(index=[]), spectra.MOST_PANELS)
             self.assertEqual((columns, left_out), (5, ""))
             names = [title.split("\n")[0] for title in panel_titles(planes)]
@@ -380,7 +381,7 @@ class TestSeveralSpectra(Picture):
     def test_are_in_as_many_columns_as_the_last_axis_has_values(self):
         for outer, inner, columns in ((2, 6, 6), (3, 4, 4), (10, 10, 10), (1, 20, 5), (20, 1, 5), (2, 11, 5), (11, 2, 5)):
             self.spectrum(np.zeros((outer, inner, 2, 2)))
-            with open_spectrum(self.folder / "spectrum.h5") as file:
+            with open_result(self.folder / "spectrum.h5", SPECTRUM) as file:
                 planes, found, left_out = sheet_of(file, argparse.Namespace(index=[]), 100)
                 self.assertEqual((len(planes), found, left_out), (outer * inner, columns, ""))
 

@@ -12,7 +12,8 @@ import numpy as np
 from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, S, UNDECIDED, Picture, add_coordinate, add_field, shares,
                                 where, write_result)
 from tool import JOBS  # adds the package to the path
-from overturn.spectrum_file import Plane, open_spectrum
+from overturn.result_file import SPECTRUM, open_result
+from overturn.spectrum_file import Plane
 from overturn.units import name_axes
 
 FREE_FALL = 16
@@ -73,7 +74,7 @@ class TestThePlane(Recorded):
                 ("scale", "size", (r"size  $R$ [m]", "scale of the record")),
                 ("pga", "frequency_parameter", (r"$p$ [1/s]", "PGA [g]"))):
             self.recorded([[S, F_MINUS], [S, S]], up=up, across=across)
-            with open_spectrum(self.folder / "spectrum.h5") as file:
+            with open_result(self.folder / "spectrum.h5", SPECTRUM) as file:
                 self.assertEqual(name_axes(Plane(file, {}, across, up)), labels)
             self.assertIn(labels[1], self.words())
 

@@ -19,8 +19,8 @@ from overturn.overlay import draw_boundary, open_boundary
 from overturn.plot import boundaries, histories
 from overturn.choice import axes_of
 from overturn.plot import spectra
-from overturn.result_file import open_result
-from overturn.spectrum_file import Axis, Plane, open_spectrum
+from overturn.result_file import BOUNDARY, HISTORY, SPECTRUM, open_result
+from overturn.spectrum_file import Axis, Plane
 
 P = np.sqrt(3 * 9.81 / (4 * np.hypot(0.3, 0.9)))  # [1/s]
 PHYSICAL = ("--units", "physical")
@@ -53,7 +53,7 @@ def plane_of(file):
 
 
 def open_history(path):
-    return open_result(path, "rocking history", "a history")
+    return open_result(path, HISTORY)
 
 
 class Sized(Recorded):
@@ -144,7 +144,7 @@ class TestAPhysicalBoundary(Sized):
             for name in ("flip_amplitude", "flip_pga"):
                 self.assertGreater(np.isfinite(file[name][:]).sum(), 9)
             flips = file["flip_amplitude"][:]
-        with open_result(self.folder / "boundary.h5", "overturning boundary", "") as file:
+        with open_result(self.folder / "boundary.h5", BOUNDARY) as file:
             return boundaries.Lines(plane_of(file), "physical"), flips
 
     def test_has_its_flips_and_its_scan_in_g(self):
@@ -190,7 +190,7 @@ class TestAnOverlaidBoundary(Sized):
     def dots(self, units="job"):
         """Returns the drawn points, in ascending order."""
         figure, panel = pyplot.subplots()
-        with open_spectrum(self.folder / "spectrum.h5") as spectrum, \
+        with open_result(self.folder / "spectrum.h5", SPECTRUM) as spectrum, \
                 open_boundary(self.folder / "boundary.h5", plane_of(spectrum), units) as boundary:
             draw_boundary(panel, boundary, plane_of(spectrum), units)
         points = np.transpose(panel.lines[-1].get_data())

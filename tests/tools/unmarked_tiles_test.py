@@ -13,10 +13,8 @@ from matplotlib import colors
 from plot_spectrum_test import Picture
 from tool import InAFolder  # first: adds the package to the path
 import overturn
-from overturn.fields import read_field
 from overturn.regions import NOT_COMPUTED, REGIONS
-from overturn.result_file import open_result
-from overturn.spectrum_file import open_spectrum
+from overturn.result_file import BOUNDARY, SPECTRUM, open_result
 
 SAFE = 0
 ROWS, COLUMNS = 100, 150
@@ -55,14 +53,15 @@ class TestATileWithoutAMark(InAFolder):
         unmarked = np.zeros((ROWS, COLUMNS), bool)
         unmarked[UNMARKED] = True
         fills = {"region": 255, "status": 255, "impacts": 65534, "steps": 4294967295}
-        with open_spectrum(self.folder / "spectrum.h5") as file:
+        with open_result(self.folder / "spectrum.h5", SPECTRUM) as file:
             for name in ("region", "angle", "velocity", "margin", "impacts", "steps", "status"):
-                values = read_field(file, name)
+                values = file[name][:]
                 np.testing.assert_array_equal(values[unmarked], fills.get(name, np.nan), name)
-                np.testing.assert_array_equal(values[~unmarked], file[name][:][~unmarked], name)
-                # Ranges of rows that begin and end within tiles.
-                np.testing.assert_array_equal(read_field(file, name, (slice(10, 70),)),
-                                              values[10:70], name)
+                np.testing.assert_array_equal(values[~unmarked], file.file[name][:][~unmarked], name)
+                # Ranges of rows that begin and end within tiles, and single points.
+                np.testing.assert_array_equal(file[name][10:70], values[10:70], name)
+                np.testing.assert_array_equal(file[name][63:66, 64], values[63:66, 64], name)
+                np.testing.assert_array_equal(file[name][70, 70], values[70, 70], name)
 
     def test_is_hatched_in_the_map(self):
         self.compute()
@@ -100,9 +99,9 @@ class TestATileWithoutAMark(InAFolder):
             file["run/checksum"][7] = 0
             file["region_below"][..., 7] = file["region_above"][..., 7] = 0
             file["flip_amplitude"][..., 7] = 5.0
-        with open_result(self.folder / "boundary.h5", "overturning boundary", "a boundary") as file:
-            self.assertTrue(np.isnan(read_field(file, "flip_amplitude")[:, 7]).all())
-            self.assertEqual(set(read_field(file, "region_above")[:, 7]), {NOT_COMPUTED})
+        with open_result(self.folder / "boundary.h5", BOUNDARY) as file:
+            self.assertTrue(np.isnan(file["flip_amplitude"][:, 7]).all())
+            self.assertEqual(set(file["region_above"][:, 7]), {NOT_COMPUTED})
         with_zeros = self.picture(**how)
         with h5py.File(self.folder / "boundary.h5", "a") as file:
             for name in ("region_below", "region_above", "flip_amplitude"):

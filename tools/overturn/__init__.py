@@ -61,7 +61,7 @@ def _module(name):
     try:
         return importlib.import_module(f"{__name__}.{name}")
     except ModuleNotFoundError as error:
-        if error.name not in ("numpy", "scipy", "matplotlib", "h5py"):
+        if error.name not in ("numpy", "scipy", "matplotlib", "h5py", "xarray"):
             raise
         raise ImportError(f"{error} (Python: {sys.executable}). Install it for this Python; Debian's "
                           f"python3-{error.name} is for /usr/bin/python3.", name=error.name) from error

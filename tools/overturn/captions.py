@@ -5,9 +5,7 @@ import math
 import pathlib
 
 import numpy as np
-from overturn.fields import count_computed
 from overturn.motion_words import is_of_floor, worded
-from overturn.result_file import escaped, title_of, told_apart
 from overturn.spectrum_file import JOB, PHYSICAL, RATES, STRENGTHS
 
 PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
@@ -20,6 +18,44 @@ SYMBOLS = {"frequency": "ω_p/p", "pulse_period": "period", "pulse_frequency": "
            "frequency_parameter": "p"}
 UNITS = {"pga": "g", "s-1": "1/s", "degree": "degrees", "1": ""}  # of a quantity, or instead of those of the file
 MOST_LETTERS = 32  # of the name of a record beside other words
+MOST_OF_TITLE = 240  # letters: two to four lines of a picture
+
+
+def shortened(text, width):
+    """Returns the text in one line of at most `width` characters; may cut within a word."""
+    line = " ".join(text.split())
+    return line if len(line) <= width else line[:width - 1].rstrip() + "…"
+
+
+def told_apart(texts, width):
+    """Returns texts shortened at their ends, or at their beginnings if they differ in the ends only; in full if neither
+    tells them apart."""
+    beginnings = [shortened(text, width) for text in texts]
+    ends = [text if len(text) <= width else "…" + text[1 - width:] for text in texts]
+    return next((short for short in (beginnings, ends) if len({*short}) == len({*texts})), texts)
+
+
+def title_of(file, shown=()):
+    """Returns the job's title and its overrides, which may contradict it, except overrides of the
+    title, of the output, which no picture depends on, and of the tables in `shown`, whose values the picture shows
+    elsewhere."""
+    title = file.text("title")
+    if title:
+        overrides = file.job_text("job_overrides").splitlines()
+        others = [shortened(words, 48) for words in overrides
+                  if words.split("=")[0].split(".")[0].strip() not in ("title", "output", *shown)]
+        title += (", with " + ", ".join(others)) * bool(others)
+    return title
+
+
+def escaped(text):
+    """Returns the text with dollar signs escaped for Matplotlib."""
+    return text.replace("$", r"\$")
+
+
+def plain(title, width=MOST_OF_TITLE):
+    """Returns a title in one line of at most `width` characters, escaped for Matplotlib."""
+    return escaped(shortened(title, width))
 
 
 def is_linear(file):
@@ -162,8 +198,8 @@ def subtitle(planes, units=JOB):
 
 def unfinished_words(file):
     """Returns the note on missing tiles, if there are any."""
-    done, number, what = count_computed(file)
-    return [f"unfinished: {done} of {number} {what} computed"] * (done < number)
+    done, number = np.count_nonzero(file.are_computed), file.are_computed.size
+    return [f"unfinished: {done} of {number} {file.PARTS} computed"] * (done < number)
 
 
 def heading(planes):

@@ -8,11 +8,9 @@ import re
 import numpy as np
 
 from overturn.choice import add_choice_arguments, chosen
-from overturn.fields import read_field
-from overturn.file_variables import text_of
 from overturn.motion_words import VARIABLES, column_named
 from overturn.output_file import BEGINNING, new_file
-from overturn.result_file import SPECTRUM, damage_reported, open_result
+from overturn.result_file import HISTORY, SPECTRUM, STUDY, damage_reported, open_result, text_of
 from overturn.spectrum_file import COUNTED
 from overturn.tool import USAGE, ToolError, parse_with_output, parser_of
 from overturn.units import LABELS
@@ -35,7 +33,6 @@ accuracy study has a row for each setting; what it gives for several quantiles, 
 has a column for each:
   tools/to_csv history.h5 --events -o events.csv"""
 
-BOUNDARY, HISTORY, STUDY = "overturning boundary", "rocking history", "accuracy study"
 REGION = "region"  # a column of every table of a spectrum
 # The names of all columns of fields that a table of a spectrum may have; see docs/results.md.
 FIELDS = {REGION, "angle", "velocity", "margin", "error", "peak", "fall_time", "friction",
@@ -68,7 +65,7 @@ def parts_of(file, dimensions, choices):
     if steps:
         steps[-1] = sizes[dimensions[-1]]
     if len(steps) > 1:
-        steps[-2] = file[fields_of(file)[0]].rows_of_chunk(dimensions[-2])
+        steps[-2] = file.rows(dimensions[-2])
     yield from itertools.product(*(
         [slice(choices[name], choices[name] + 1)] if name in choices
         else [slice(first, min(first + step, sizes[name])) for first in range(0, sizes[name], step)]
@@ -79,8 +76,7 @@ def values_at(file, name, dimensions, part):
     """Returns the values of a variable at some points."""
     variable = file[name]
     places = dict(zip(dimensions, part))
-    index = tuple(places[each] for each in variable.dimensions)
-    values = read_field(file, name, index) if file.has_tiles and name not in file.coordinates else variable[index]
+    values = variable[tuple(places[each] for each in variable.dimensions)]
     order = sorted(range(values.ndim), key=lambda axis: dimensions.index(variable.dimensions[axis]))
     lengths = [each.stop - each.start for each in part]
     shape = [length if each in variable.dimensions else 1 for each, length in zip(dimensions, lengths)]
@@ -195,9 +191,6 @@ def table_of(file, arguments):
 
 def main(argv=None):
     arguments = read_arguments(argv)
-    with open_result(arguments.file, (SPECTRUM, BOUNDARY, HISTORY, STUDY), "a result of overturn") as file:
-        with damage_reported(arguments.file):
-            if file.text("kind") == SPECTRUM and REGION not in file:
-                raise ToolError(f"\"{arguments.file}\": this file has no field region; add it to output.fields.")
-            rows = table_of(file, arguments)
-        write(rows, arguments.output)
+    with open_result(arguments.file) as file:
+        file.expect_fields([REGION] * (file.text("kind") == SPECTRUM))
+        write(table_of(file, arguments), arguments.output)

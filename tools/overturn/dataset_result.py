@@ -4,41 +4,30 @@ files."""
 import h5py
 import numpy as np
 
-from overturn.file_variables import Result, Variable
 from overturn.regions import LEFT_OUT, NOT_COMPUTED, REGIONS
+from overturn.result_file import Result, Variable
 
 
 class DatasetResult(Result):
     """The variables of a data set by name. The file that it was read from, if any, gives what the job says only."""
 
+    PARTS = "points"
+
     def __init__(self, dataset):
         source = dataset.encoding.get("source", "")
         self.file = h5py.File(source) if h5py.is_hdf5(source) else None
         self.filename = source or "the data set"
-        self.has_tiles, self.tile = False, ()
+        self.tiles = None
         self.attrs = dict(dataset.attrs)
         self.dimensions = dataset["region"].dims if "region" in dataset else ()
         dataset = in_ascending_order(dataset, self.dimensions)
-        self.variables = {name: DatasetVariable(each.dims, each, each.attrs) for name, each in dataset.variables.items()}
+        self.variables = {name: Variable(each.dims, Codes(each) if name == "region" else each, each.attrs)
+                          for name, each in dataset.variables.items()}
         self.coordinates = [*dataset.coords]
-        if "region" in self.variables:
-            self.variables["region"].data = Codes(dataset.variables["region"])
 
     @property
-    def run(self):
-        return {} if self.file is None else super().run
-
-    def computed_points(self):
+    def are_computed(self):
         return self["region"][()] != NOT_COMPUTED
-
-    def close(self):
-        if self.file is not None:
-            self.file.close()
-
-
-class DatasetVariable(Variable):
-    def rows_of_chunk(self, dimension):
-        return 64
 
 
 class Codes:

@@ -1,13 +1,26 @@
-"""Result files as data sets of xarray."""
+"""Result files as data sets of xarray, whose variables are read when they are used."""
 
 from __future__ import annotations
 
 import os
-import sys
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    import xarray
+import xarray
+from xarray.backends import BackendArray
+from xarray.core import indexing
+
+from overturn.result_file import open_file
+
+
+class _Values(BackendArray):
+    def __init__(self, variable):
+        self.variable, self.shape, self.dtype = variable, variable.shape, variable.dtype
+
+    def __getitem__(self, key):
+        return indexing.explicit_indexing_adapter(key, self.shape, indexing.IndexingSupport.BASIC,
+                                                  self.variable.__getitem__)
+
+    def __deepcopy__(self, _):
+        return self  # of an open file
 
 
 def open(path: str | os.PathLike[str]) -> xarray.Dataset:
@@ -15,29 +28,13 @@ def open(path: str | os.PathLike[str]) -> xarray.Dataset:
     read when they are used. In an unfinished file, points that are not computed have the values that mean
     "not computed" (region: 255; double: NaN).
 
-    Raises ValueError if the file was not written by overturn, OSError if it cannot be read.
+    Raises ValueError if the file was not written by overturn or has another format, OSError if it cannot be read.
     """
-    try:
-        import h5py
-        import xarray
-    except ImportError as error:
-        raise ImportError(f"{error} (Python: {sys.executable}). Install xarray and h5py (Debian: "
-                          "python3-xarray and python3-h5py, for /usr/bin/python3).", name=error.name) from error
-    from overturn.lazy_variables import variable
-    from overturn.result_file import FORMAT, Result, other_format
-    file = h5py.File(path)
-    try:
-        if "program_version" not in file.attrs:
-            raise ValueError(f"\"{path}\" was not written by overturn.")
-        if (version := file.attrs.get("format_version", 1)) != FORMAT:
-            raise ValueError(other_format(path, version))
-        result = Result(file)
-        variables = {name: variable(result, name) for name in result}
-    except Exception:
-        file.close()
-        raise
-    coordinates = {name: variables.pop(name) for name in result.coordinates}
-    dataset = xarray.Dataset(variables, coordinates, result.attrs)
+    file = open_file(path)
+    variables = {name: xarray.Variable(each.dimensions, indexing.MemoryCachedArray(indexing.CopyOnWriteArray(
+        indexing.LazilyIndexedArray(_Values(each)))), each.attrs) for name, each in file.items()}
+    coordinates = {name: variables.pop(name) for name in file.coordinates}
+    dataset = xarray.Dataset(variables, coordinates, file.attrs)
     dataset.encoding["source"] = os.path.abspath(path)
-    dataset.set_close(result.close)
+    dataset.set_close(file.file.close)
     return dataset

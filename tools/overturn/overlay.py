@@ -1,19 +1,20 @@
 """The boundary drawn on a spectrum: the flips of the same blocks under the same ground motion."""
 
+import contextlib
 import re
 
 import numpy as np
 from overturn.captions import PULSE_NUMBERS, ground_word, is_recorded
 from overturn.choice import axes_of
 from overturn.regions import SAFE, UNSAFE
-from overturn.result_file import job_text, open_result
+from overturn.result_file import BOUNDARY, open_result
 from overturn.spectrum_file import PHYSICAL, RECIPROCALS, Plane
 from overturn.tool import ToolError
 from overturn.units import NEEDING_A_SIZE, axis_of, expect_size, name_of_flips
 
 
 def checksums_of_records(file):
-    return re.findall(r'\bchecksum = "(\w+)"', job_text(file, "job_resolved"))
+    return re.findall(r'\bchecksum = "(\w+)"', file.job_text("job_resolved"))
 
 
 def expect_same_motion(file, spectrum):
@@ -39,21 +40,25 @@ def expect_overlap(boundary, plane, across):
                         f"{values.max():g}, the spectrum only from {first:g} to {last:g}.")
 
 
+@contextlib.contextmanager
 def open_boundary(path, plane, units):
-    """Opens the boundary file if it has the same ground motion as the spectrum. Its axes may differ: its flips are
-    converted to the quantities on the axes of the spectrum."""
+    """Opens the boundary file, if any is given, if it has the same ground motion as the spectrum. Its axes may differ: its
+    flips are converted to the quantities on the axes of the spectrum."""
+    if not path:
+        yield None
+        return
     spectrum = plane.file
     if plane.across is None:
         raise ToolError(f"\"{spectrum.filename}\" has one axis, but a boundary is drawn over two. Omit --boundary.")
-    file = open_result(path, "overturning boundary", "a boundary written by overturn boundary")
-    expect_same_motion(file, spectrum)
-    if NEEDING_A_SIZE.intersection(plane.quantities(units)):
-        expect_size(file, PHYSICAL)
-    for name in ("pulse", "theory", "motion_of", *PULSE_NUMBERS):
-        expect_equal(file, spectrum, name, file.text(name), spectrum.text(name))
-    if is_recorded(file) or plane.quantities(units)[0] in RECIPROCALS:
-        expect_equal(file, spectrum, "gravity", file.text("gravity"), spectrum.text("gravity"))
-    return file
+    with open_result(path, BOUNDARY) as file:
+        expect_same_motion(file, spectrum)
+        if NEEDING_A_SIZE.intersection(plane.quantities(units)):
+            expect_size(file, PHYSICAL)
+        for name in ("pulse", "theory", "motion_of", *PULSE_NUMBERS):
+            expect_equal(file, spectrum, name, file.text(name), spectrum.text(name))
+        if is_recorded(file) or plane.quantities(units)[0] in RECIPROCALS:
+            expect_equal(file, spectrum, "gravity", file.text("gravity"), spectrum.text("gravity"))
+        yield file
 
 
 def boundary_on(file, plane, units):

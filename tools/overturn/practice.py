@@ -18,7 +18,7 @@ def came_back(region, peak):
 def count(plane):
     """Returns the number of blocks that came back and of all safe blocks of a spectrum."""
     wrong = safe = 0
-    for rows in plane.tiles("region"):
+    for rows in plane.tiles():
         region, peak = (plane.read(name, rows) for name in ("region", "peak"))
         wrong += np.count_nonzero(came_back(region, peak))
         safe += np.count_nonzero(np.isin(region, SAFE))

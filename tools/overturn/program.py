@@ -12,7 +12,7 @@ import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Union
 
-from overturn import datasets
+import overturn
 from overturn.arguments import count
 from overturn.checkout import IS_CHECKOUT, is_program, overturn_path
 
@@ -65,7 +65,7 @@ def run(job: Job, ranks: int = 1, *, output: str | os.PathLike[str] | None = Non
 
     Warns of values that are probably in another unit. Raises ProgramError if the program fails.
     """
-    ranks = count("ranks", ranks)
+    ranks, open_result = count("ranks", ranks), overturn.open  # without xarray, this fails before the run
     launcher = [os.environ.get("MPIEXEC", "mpirun"), "-n", str(ranks)] if ranks != 1 else []
     with contextlib.ExitStack() as stack:
         path = stack.enter_context(_job_file(job))
@@ -75,7 +75,7 @@ def run(job: Job, ranks: int = 1, *, output: str | os.PathLike[str] | None = Non
         else:
             result = pathlib.Path(output)
         _output_of([*launcher, overturn_path(), "run", path, "-o", result, *_set_arguments(overrides)], path, job)
-        dataset = datasets.open(result)
+        dataset = open_result(result)
         if output is not None:
             return dataset
         with dataset:

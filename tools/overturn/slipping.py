@@ -22,7 +22,7 @@ class Slipping:
         self.unfinished = unfinished_words(planes[0].file)
         self.count = self.verdicts = 0
         for plane in planes:
-            for rows in plane.tiles("region"):
+            for rows in plane.tiles():
                 region = plane.read("region", rows)
                 self.count += np.count_nonzero(self.of_rows(plane, rows))
                 self.verdicts += np.count_nonzero(np.isin(region, SAFE + UNSAFE))

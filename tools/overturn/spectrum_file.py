@@ -2,10 +2,8 @@
 
 import numpy as np
 
-from overturn.fields import read_field
 from overturn.block_groups import texts_of
 from overturn.regions import APART, BETWEEN, ranks, worst
-from overturn.result_file import SPECTRUM, open_result
 from overturn.tool import USAGE, ToolError
 
 STRENGTHS = ("amplitude", "scale", "pga")
@@ -21,15 +19,6 @@ COUNTED = ("motion", "block")  # dimensions whose values are numbers
 RECIPROCALS = {"pulse_period": "pulse_frequency", "pulse_frequency": "pulse_period"}
 
 
-def open_spectrum(path, fields=("region",)):
-    """Opens a spectrum that has the given fields."""
-    file = open_result(path, SPECTRUM, "a spectrum written by overturn run")
-    for field in fields:
-        if field not in file:
-            raise ToolError(f"\"{file.filename}\": this file has no field {field}; add it to output.fields.")
-    return file
-
-
 class Plane:
     """What a picture shows of a spectrum or a boundary: the dimensions along the horizontal and the vertical axis, and
     an index of each of the others. A spectrum of one dimension has no horizontal one, nor has a boundary of one frequency or
@@ -43,20 +32,20 @@ class Plane:
         """Reads some rows of a field."""
         index = {**self.index, self.up: rows}
         dimensions = self.file[name].dimensions
-        values = read_field(self.file, name, tuple(index.get(each, slice(None)) for each in dimensions))
+        values = self.file[name][tuple(index.get(each, slice(None)) for each in dimensions)]
         if self.across is None:
             return values[:, None]
         return values.T if dimensions.index(self.across) < dimensions.index(self.up) else values
 
-    def tiles(self, name):
+    def tiles(self):
         """Returns slices of rows to be read one at a time, because a plane may not fit in memory."""
-        height = self.file[name].rows_of_chunk(self.up)
+        height = self.file.rows(self.up)
         return [slice(first, first + height) for first in range(0, self.height, height)]
 
     def read_cells(self, name, rows, columns):
         """Reads a field at given rows and columns."""
         values = np.empty((len(rows), len(columns)), self.file[name].dtype)
-        for tiles in self.tiles(name):
+        for tiles in self.tiles():
             wanted = (rows >= tiles.start) & (rows < tiles.stop)
             if wanted.any():
                 values[wanted] = self.read(name, tiles)[np.ix_(rows[wanted] - tiles.start, columns)]
@@ -76,7 +65,7 @@ class Plane:
         of_row, of_column = up.pixels_of_cells(pixels), across.pixels_of_cells(pixels)
         first = np.flatnonzero(np.diff(of_column, prepend=-1))  # of the cells in each column of pixels
         highest = np.zeros((len(rows), len(columns)), np.uint16)
-        for tiles in self.tiles("region"):
+        for tiles in self.tiles():
             rank = rank_of(tiles)
             by_pixel = rank[:, columns]
             if across.size > pixels:

@@ -1,9 +1,8 @@
 """The quantities on the axes of a plane: their values and labels, in the units of the job or in seconds and g."""
 
 import numpy as np
-from overturn.captions import is_linear, is_recorded, names_of
+from overturn.captions import escaped, is_linear, is_recorded, names_of
 from overturn.motion_words import worded
-from overturn.result_file import escaped
 from overturn.spectrum_file import COUNTED, JOB, LOG, PHYSICAL, Axis, scanned_quantity
 from overturn.tool import USAGE, ToolError
 

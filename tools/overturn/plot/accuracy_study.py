@@ -2,10 +2,10 @@
 
 import numpy as np
 from matplotlib import pyplot
-from overturn.captions import ground_text
+from overturn.captions import ground_text, plain, title_of
 from overturn.output_file import save
 from overturn.plot.headings import wrapped
-from overturn.result_file import damage_reported, open_result, plain, title_of
+from overturn.result_file import STUDY, open_result
 from overturn.ticks import name_ticks
 from overturn.tool import ToolError, parse_with_picture, parser_of
 
@@ -138,7 +138,6 @@ def read_arguments(argv):
 
 def main(argv=None):
     arguments = read_arguments(argv)
-    with open_result(arguments.file, "accuracy study",
-                     "a study written by overturn accuracy") as file, damage_reported(arguments.file):
+    with open_result(arguments.file, STUDY) as file:
         figure = draw(file)
     save(figure, arguments.output, dpi=120)

@@ -1,8 +1,8 @@
 """Axes of a panel, to scale or with a band for each of a few values."""
 
 import numpy as np
+from overturn.captions import escaped, told_apart
 from overturn.plot.headings import LINE, POINTS, width_of
-from overturn.result_file import escaped, told_apart
 from overturn.spectrum_file import BANDS
 from overturn.ticks import length_of, name_ticks
 

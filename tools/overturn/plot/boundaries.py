@@ -14,14 +14,14 @@ from matplotlib.legend_handler import HandlerTuple
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from overturn import regions
-from overturn.captions import ground_word, heading, is_recorded, panel_titles, subtitle
+from overturn.captions import ground_word, heading, is_recorded, panel_titles, plain, subtitle
 from overturn.choice import add_choice_arguments, sheet_of
 from overturn.motion_words import worded
 from overturn.output_file import save
 from overturn.plot.bands import set_axes
 from overturn.plot.headings import Heading
 from overturn.plot.sheet import MOST_PANELS, Sheet
-from overturn.result_file import damage_reported, open_result, plain
+from overturn.result_file import BOUNDARY, open_result
 from overturn.spectrum_file import BANDS, Axis
 from overturn.tool import parse_with_picture, parser_of
 from overturn.units import add_units_argument, axis_of, expect_size, name_axes, name_of_flips, scan_of
@@ -223,8 +223,7 @@ def draw_figure(plane, units):
 
 def draw(path, arguments, ax=None):
     """Draws into the given axes, or without them a figure. Returns the axes; a list of them for several boundaries."""
-    with open_result(path, "overturning boundary",
-                     "a boundary written by overturn boundary") as file, damage_reported(file.filename):
+    with open_result(path, BOUNDARY) as file:
         expect_size(file, arguments.units)
         planes, columns, left_out = sheet_of(file, arguments, 1 if ax is not None else MOST_PANELS)
         if ax is not None:

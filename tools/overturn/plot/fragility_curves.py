@@ -1,6 +1,7 @@
 """Plots fragility curves of a result under records: the fraction of the blocks that overturn against
 intensity measures, with lognormal fits and their confidence."""
 
+import contextlib
 import dataclasses
 import itertools
 import pathlib
@@ -11,9 +12,9 @@ import overturn
 from matplotlib import pyplot
 from matplotlib.lines import Line2D
 from overturn.block_groups import counted, groups_of
+from overturn.captions import escaped, plain, shortened
 from overturn.output_file import save
 from overturn.plot.headings import LINE, POINTS, wrapped
-from overturn.result_file import escaped, plain, shortened
 from overturn.ticks import name_ticks
 from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
 
@@ -185,18 +186,25 @@ def read_arguments(argv):
     return parse_with_picture(parser, argv, "FILE_fragility.png")
 
 
+@contextlib.contextmanager
+def open_dataset(path):
+    """Opens a result for a tool, with overturn.open(), and reports that a curve cannot be computed from it."""
+    try:
+        dataset = overturn.open(path)
+    except (OSError, ValueError) as error:
+        raise ToolError(str(error)) from error
+    with dataset:
+        try:
+            yield dataset
+        except ValueError as error:
+            raise ToolError(f"\"{path}\": {error}", USAGE) from error
+
+
 def compute(arguments):
     """Returns the title, and the curves of each measure, one for each group of blocks."""
     import scipy  # noqa: F401 (for overturn.fragility: if it is missing, fail before anything is read)
-    try:
-        dataset = overturn.open(arguments.file)
-    except (OSError, ValueError) as error:
-        raise ToolError(f"cannot read \"{arguments.file}\": {error}") from error
-    with dataset:
-        try:
-            return title_of(dataset, arguments), [curves_of(dataset, im, arguments) for im in arguments.im]
-        except ValueError as error:
-            raise ToolError(f"\"{arguments.file}\": {error}", USAGE) from error
+    with open_dataset(arguments.file) as dataset:
+        return title_of(dataset, arguments), [curves_of(dataset, im, arguments) for im in arguments.im]
 
 
 def curves_of(dataset, im, arguments):

@@ -10,13 +10,13 @@ from types import SimpleNamespace
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.lines import Line2D
-from overturn.captions import SIZES, file_name, ground_text, ground_word, is_linear, is_recorded, slenderness_text
-from overturn.file_variables import text_of
+from overturn.captions import (SIZES, file_name, ground_text, ground_word, is_linear, is_recorded, plain,
+                               slenderness_text, title_of)
 from overturn.motion_words import worded
 from overturn.output_file import save
 from overturn.plot.headings import Heading
 from overturn.regions import REGIONS, UNDECIDED, meaning_of
-from overturn.result_file import damage_reported, job_text, open_result, plain, title_of
+from overturn.result_file import HISTORY, damage_reported, open_result, text_of
 from overturn.spectrum_file import EQUIVALENTS, JOB, PHYSICAL, RATES, STRENGTHS
 from overturn.ticks import name_ticks
 from overturn.tool import ToolError, parse_with_picture, parser_of
@@ -198,7 +198,7 @@ def mark_events(axes, history):
 
 def word_of_record(file, key):
     """Returns a text in `scene.record` of the resolved job; empty if there is none."""
-    found = re.search(rf'^record = .*\b{key} = ("(?:[^"\\]|\\.)*")', job_text(file, "job_resolved"), re.MULTILINE)
+    found = re.search(rf'^record = .*\b{key} = ("(?:[^"\\]|\\.)*")', file.job_text("job_resolved"), re.MULTILINE)
     return json.loads(found[1]) if found else ""
 
 
@@ -287,8 +287,7 @@ def draw_figure(file, history, units):
 
 def draw(path, arguments, ax=None):
     """Draws the tilt into the given axes, or without them a figure. Returns the axes."""
-    with (open_result(path, "rocking history", "a history written by overturn history") as file,
-          damage_reported(file.filename, ValueError)):
+    with open_result(path, HISTORY) as file, damage_reported(file.filename, ValueError):
         expect_size(file, arguments.units)
         shown = History(file, arguments.start, arguments.until, arguments.units)
         if ax is None:

@@ -3,7 +3,7 @@ coloured by the points of the plane."""
 
 import numpy as np
 from matplotlib import pyplot
-from overturn.captions import ground_word, heading, is_recorded, subtitle
+from overturn.captions import ground_word, heading, is_recorded, plain, subtitle
 from overturn.choice import add_choice_arguments, plane_of
 from overturn.output_file import save
 from overturn.phase_space import HALF_TURN, block_of, draw_boundaries, fill_libration, name_phase_axes
@@ -12,8 +12,8 @@ from overturn.plot.headings import Heading
 from overturn.plot.spectra import cover, hatch
 from overturn.region_labels import add_label_argument, pieces, thinned, write_label
 from overturn.regions import APART, BETWEEN, LEFT_STANDING, NOT_COMPUTED, REGIONS
-from overturn.result_file import damage_reported, plain
-from overturn.spectrum_file import open_spectrum, without_gaps
+from overturn.result_file import SPECTRUM, open_result
+from overturn.spectrum_file import without_gaps
 from overturn.tool import parse_with_picture, parser_of
 from overturn.units import axes_of_plane, name_axes
 
@@ -83,7 +83,7 @@ class Spectrum:
         plane = self.plane
         red = self.across.share(plane.values(plane.across, plane.across))
         blue = self.up.share(plane.values(plane.up, plane.up))
-        for rows in plane.tiles("region"):
+        for rows in plane.tiles():
             region, angle, rate = (plane.read(name, rows) for name in ("region", "angle", "velocity"))
             standing = np.isin(region, LEFT_STANDING)
             colours = np.broadcast_to(red, region.shape), np.broadcast_to(blue[rows, None],
@@ -213,8 +213,7 @@ def read_arguments(argv):
 
 def main(argv=None):
     arguments = read_arguments(argv)
-    with open_spectrum(arguments.file, ("region", "angle", "velocity")) as file, \
-            damage_reported(arguments.file):
+    with open_result(arguments.file, SPECTRUM, ("region", "angle", "velocity")) as file:
         plane = plane_of(file, arguments)
         figure = draw(plane, arguments.title, arguments.label)
     save(figure, arguments.output, dpi=150)

@@ -7,7 +7,8 @@ from overturn.phase_space import (HALF_TURN, FreeBlock, block_of, draw_boundarie
                                   fill_regions, largest_restitution, map_of_regions, name_phase_axes)
 from overturn.region_labels import pieces, thinned, write_label
 from overturn.regions import REGIONS
-from overturn.spectrum_file import Plane, open_spectrum
+from overturn.result_file import SPECTRUM, open_result
+from overturn.spectrum_file import Plane
 from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
 
 EXAMPLE = """\
@@ -279,7 +280,7 @@ def read_arguments(argv):
 
 
 def block_of_file(path):
-    with open_spectrum(path, ()) as file:
+    with open_result(path, SPECTRUM) as file:
         return block_of(Plane(file, dict.fromkeys(file.dimensions, 0), None, file.dimensions[-1]))
 
 

@@ -8,12 +8,12 @@ import textwrap
 import numpy as np
 import overturn
 from matplotlib import pyplot
+from overturn.captions import escaped, plain, shortened
 from overturn.motion_words import variable_of_ground
 from overturn.output_file import save
 from overturn.plot.fragility_curves import (BAND, COLOURS, NAMES, POINT, UNITS, add_curve_arguments, compute_curve,
-                                             draw_bins)
+                                             draw_bins, open_dataset)
 from overturn.plot.headings import wrapped
-from overturn.result_file import escaped, plain, shortened
 from overturn.ticks import name_ticks
 from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
 
@@ -145,16 +145,9 @@ def compute(arguments):
         raise ToolError(f"cannot read \"{arguments.hazard}\": {error.strerror}.") from error
     except ValueError as error:
         raise ToolError(str(error), USAGE) from error
-    try:
-        dataset = overturn.open(arguments.file)
-    except (OSError, ValueError) as error:
-        raise ToolError(f"cannot read \"{arguments.file}\": {error}") from error
-    with dataset:
-        try:
-            curve = compute_curve(dataset, variable_of_ground(dataset.attrs, hazard.im), arguments,
-                                  together=arguments.together)
-        except ValueError as error:
-            raise ToolError(f"\"{arguments.file}\": {error}", USAGE) from error
+    with open_dataset(arguments.file) as dataset:
+        curve = compute_curve(dataset, variable_of_ground(dataset.attrs, hazard.im), arguments,
+                              together=arguments.together)
         return dataset.attrs.get("title") or f"Risk: {pathlib.Path(arguments.file).name}", hazard, curve
 
 

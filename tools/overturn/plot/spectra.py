@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 from matplotlib.lines import Line2D
 from overturn import practice
-from overturn.captions import ground_word, heading, panel_titles, subtitle
+from overturn.captions import ground_word, heading, panel_titles, plain, subtitle
 from overturn.choice import add_choice_arguments, sheet_of
 from overturn.friction import expect_coefficient
 from overturn.output_file import save
@@ -18,9 +18,8 @@ from overturn.plot.bands import set_axes
 from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.region_labels import Label, add_label_argument, thinned, write_label
 from overturn.regions import coloured, legend_entries
-from overturn.result_file import damage_reported, plain
+from overturn.result_file import SPECTRUM, open_result
 from overturn.slipping import Slipping
-from overturn.spectrum_file import open_spectrum
 from overturn.tool import parse_with_picture, parser_of
 from overturn.units import add_units_argument, axes_of_plane, expect_size, name_axes
 
@@ -83,19 +82,19 @@ def write_labels(panel, codes, labels, across, up):
 
 def draw_panels(panels, pixels, planes, axes, arguments, slipping):
     """Draws the maps, each of pixels x pixels, and returns the codes in the picture."""
-    boundary = open_boundary(arguments.boundary, planes[0], arguments.units) if arguments.boundary else None
     present = set()
-    for panel, plane, (across, up) in zip(panels, planes, axes):
-        codes = plane.read_regions(up, across, pixels)
-        present.update(np.unique(codes))
-        draw_panel(panel, codes, across, up)
-        if arguments.practice:
-            cover(panel, practice.picture(codes, plane.read_cells("peak", up.cells(pixels), across.cells(pixels))))
-        if slipping:
-            cover(panel, slipping.picture(plane, up, across, pixels))
-        if boundary is not None:
-            draw_boundary(panel, boundary, plane, arguments.units)
-        write_labels(panel, codes, arguments.label, across, up)
+    with open_boundary(arguments.boundary, planes[0], arguments.units) as boundary:
+        for panel, plane, (across, up) in zip(panels, planes, axes):
+            codes = plane.read_regions(up, across, pixels)
+            present.update(np.unique(codes))
+            draw_panel(panel, codes, across, up)
+            if arguments.practice:
+                cover(panel, practice.picture(codes, plane.read_cells("peak", up.cells(pixels), across.cells(pixels))))
+            if slipping:
+                cover(panel, slipping.picture(plane, up, across, pixels))
+            if boundary is not None:
+                draw_boundary(panel, boundary, plane, arguments.units)
+            write_labels(panel, codes, arguments.label, across, up)
     return present
 
 
@@ -131,7 +130,7 @@ def draw(path, arguments, dpi, ax=None):
     lines of a report: what is left out, and the counts of points that an option marks."""
     marked = {"peak": arguments.practice, "friction": arguments.friction is not None}
     fields = ("region", *(field for field, is_asked in marked.items() if is_asked))
-    with open_spectrum(path, fields) as file, damage_reported(file.filename):
+    with open_result(path, SPECTRUM, fields) as file:
         expect_size(file, arguments.units)
         planes, columns, left_out = sheet_of(file, arguments, 1 if ax is not None else MOST_PANELS)
         counts = {}
