@@ -2,8 +2,10 @@
 PYTHONPATH."""
 
 import os
+import pathlib
 import subprocess
 import sys
+import tomllib
 import unittest
 
 
@@ -23,6 +25,16 @@ class ThePackage(unittest.TestCase):
                           " or name not in dir(overturn)])")
         self.assertEqual(done.stdout, "[]\n", done.stderr)
 
+    def test_has_the_same_commands_in_a_checkout_and_installed_by_pip(self):
+        folder = pathlib.Path(__file__).resolve().parents[2]
+        done = run_python("from overturn.installation import TOOLS; print(*TOOLS)")
+        tools = done.stdout.split()
+        self.assertEqual({path.name for path in (folder / "tools").iterdir() if path.is_file()
+                          and "run_command()" in path.read_text()}, {*tools}, done.stderr)
+        scripts = tomllib.loads((folder / "pyproject.toml").read_text())["project"]["scripts"]
+        self.assertEqual(scripts, {f"overturn-{name}".replace("_", "-"): "overturn.installation:run_command"
+                                   for name in tools})
+
     def test_says_what_to_do_if_its_module_is_missing(self):
         done = run_python("import overturn; overturn.evaluate()", OVERTURN="/nowhere/overturn")
         self.assertIn("ImportError: the compiled module of overturn is not in", done.stderr)
@@ -30,7 +42,7 @@ class ThePackage(unittest.TestCase):
 
     def test_names_the_python_that_lacks_numpy(self):
         done = run_python("import sys; sys.modules['numpy'] = None; import overturn; overturn.evaluate")
-        self.assertIn(f"(Python: {sys.executable}). Install it for this Python; Debian's python3-numpy is for",
+        self.assertIn(f"(Python: {sys.executable}). Install it for this Python, or Debian's python3-numpy for",
                       done.stderr)
 
     def test_refuses_a_numpy_that_its_module_does_not_support(self):

@@ -7,7 +7,7 @@ import unittest
 import venv
 
 from tool import PATIENCE, TOOLS, InOneFolder
-from overturn.interpreter import SYSTEM, system_has
+from overturn.installation import SYSTEM, system_has
 
 NAMES = sorted(path.relative_to(TOOLS) for path in (*TOOLS.iterdir(), *(TOOLS / "paper").iterdir())
                if path.is_file() and b"python" in path.read_bytes().split(b"\n")[0])
@@ -44,9 +44,9 @@ class TestAPythonWithoutTheModules(InOneFolder):
     def test_ends_with_the_packages_to_install_if_the_systems_lacks_them_too(self):
         for system in (self.programs / "python3", self.folder / "nothing"):
             code = (f"import sys; sys.path.insert(0, {str(TOOLS)!r}); sys.argv = ['a_tool']\n"
-                    f"from overturn import interpreter; interpreter.SYSTEM = {str(system)!r}\n"
+                    f"from overturn import installation; installation.SYSTEM = {str(system)!r}\n"
                     "try: import h5py\n"
-                    "except ImportError as error: interpreter.run_elsewhere(error)\n")
+                    "except ImportError as error: installation.run_elsewhere(error)\n")
             run = self.run_here(self.programs / "python3", "-c", code)
             self.assertEqual(run.returncode, 1)
             self.assertIn("a_tool: No module named 'h5py'", run.stderr)

@@ -24,16 +24,16 @@ os.environ["MPLBACKEND"] = "Agg"  # as run_command() sets it
 def run_tool(name, *arguments, cwd, **how):
     """Runs a tool in this process if it is a command of the package, which saves the import of its
     modules; otherwise, or with further options, in its own. `name` is a path below tools/."""
-    command = re.search(r'run_command\("(\w+)", "([\w.]+)"\)', (TOOLS / name).read_text())
-    if how or not command:
+    from overturn import installation, tool
+    module = installation.TOOLS.get(name)
+    if how or not module:
         return subprocess.run([sys.executable, TOOLS / name, *arguments], text=True, cwd=cwd,
                               capture_output=True, **{"timeout": PATIENCE, **how})
-    from overturn import tool
-    main = importlib.import_module(command[2]).main
+    main = importlib.import_module(f"overturn.{module}").main
     output, errors, code = io.StringIO(), io.StringIO(), 0
     with contextlib.chdir(cwd), contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
         try:
-            tool.run_tool(command[1], lambda: main([str(word) for word in arguments]))
+            tool.run_tool(name, lambda: main([str(word) for word in arguments]))
         except SystemExit as end:
             code = end.code or 0
     return subprocess.CompletedProcess([name, *arguments], code, output.getvalue(), errors.getvalue())

@@ -9,7 +9,7 @@ import time
 
 from building import SOURCE, fail
 
-from overturn.checkout import find_overturn, mpi_environment
+from overturn.installation import find_overturn, mpi_environment
 
 JOB, AXES = SOURCE / "jobs" / "figure_07a.toml", ("frequency", "amplitude")
 RECORD_JOB, RECORD_AXES = SOURCE / "jobs" / "synthetic.toml", ("size", "scale")

@@ -12,7 +12,7 @@ import warnings
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 
-from overturn.interpreter import run_elsewhere
+from overturn.installation import run_elsewhere
 
 try:
     import h5py

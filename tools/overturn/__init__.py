@@ -5,10 +5,9 @@
 Modules are imported when they are used, because every tool imports this package."""
 
 import importlib
-import sys
 from typing import TYPE_CHECKING
 
-from overturn.checkout import overturn_path
+from overturn.installation import PACKAGES, explained, overturn_path
 
 if TYPE_CHECKING:
     from overturn import plot as plot
@@ -61,10 +60,9 @@ def _module(name):
     try:
         return importlib.import_module(f"{__name__}.{name}")
     except ModuleNotFoundError as error:
-        if error.name not in ("numpy", "scipy", "matplotlib", "h5py", "xarray"):
+        if error.name not in PACKAGES:
             raise
-        raise ImportError(f"{error} (Python: {sys.executable}). Install it for this Python; Debian's "
-                          f"python3-{error.name} is for /usr/bin/python3.", name=error.name) from error
+        raise ImportError(explained(error), name=error.name) from error
 
 
 def __getattr__(name):

@@ -5,7 +5,7 @@ import importlib.util
 import os
 import sys
 
-PACKAGES = ("numpy", "h5py", "matplotlib", "scipy", "xarray", "h5netcdf")
+from overturn.installation import PACKAGES
 
 
 def module_text():

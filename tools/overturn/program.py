@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Union
 
 import overturn
 from overturn.arguments import count
-from overturn.checkout import IS_CHECKOUT, is_program, overturn_path
+from overturn.installation import IS_CHECKOUT, is_program, overturn_path
 
 if TYPE_CHECKING:
     import xarray
