@@ -31,11 +31,8 @@ int verify(const std::string& path)
                     fmt::join(damaged | std::views::take(most), ", "),
                     std::ssize(damaged) > most ? ", ..." : "", command_to_complete(stored));
     }
-    fmt::print("{}: {} of {} {} done; {} match\n", path, tiles.tiles_done, tiles.tiles,
-               tiles.tiles == 1 ? "tile is" : "tiles are",
-               stored.has_coordinate_checksums()
-                   ? "coordinates and checksums"
-                   : "checksums of tiles (this format has none of coordinates)");
+    fmt::print("{}: {} of {} {} done; coordinates and checksums match\n", path, tiles.tiles_done,
+               tiles.tiles, tiles.tiles == 1 ? "tile is" : "tiles are");
     return exit_code::complete;
 }
 

@@ -11,11 +11,9 @@
 
 namespace overturn::layout {
 
-/// Global attribute: the version of the layout. Files of format 3, in which every quantity is a
-/// dimension and coordinates have no checksums, can be read but not resumed.
+/// Global attribute: the version of the layout. Other versions are refused.
 inline constexpr char format_version[] = "format_version";
-inline constexpr std::int64_t newest_format = 4;
-inline constexpr std::int64_t oldest_format = 3;
+inline constexpr std::int64_t format = 4;
 
 /// The name of an object in the group of what is neither a coordinate nor a field: how the file was
 /// computed. Readers that open the root group, such as xarray.open_dataset(), do not see it.

@@ -37,7 +37,7 @@ Handle ordered_creation(hid_t of_what)
 void write_origin(hid_t file, const Job& job, FileKind kind)
 {
     write_attribute(file, "Conventions", "CF-1.8");
-    write_attribute(file, layout::format_version, layout::newest_format);
+    write_attribute(file, layout::format_version, layout::format);
     write_attribute(file, "title", job.title);
     write_attribute(file, "kind", name_of(kind));
     write_attribute(file, "source", fmt::format("overturn {}", program_version()));

@@ -114,13 +114,13 @@ FileOrigin read_origin(hid_t file, const std::string& path)
     }
     origin.kind = *kind;
     const auto format = hdf5::read_integers_attribute(file, layout::format_version);
-    origin.format = format.empty() ? 1 : format.front();
-    if (origin.format < layout::oldest_format || origin.format > layout::newest_format) {
+    const std::int64_t version = format.empty() ? 1 : format.front();
+    if (version != layout::format) {
         throw Error(exit_code::output,
-                    "\"{}\" has format version {}, but this program reads the versions "
-                    "{} and {}. Use {} program.",
-                    path, origin.format, layout::oldest_format, layout::newest_format,
-                    origin.format > layout::newest_format ? "a newer" : "an older");
+                    "\"{}\" has format version {}, but this program reads version {}. Use {}.",
+                    path, version, layout::format,
+                    version > layout::format ? "a newer program"
+                                             : "an older program, or compute the file again");
     }
     origin.title = hdf5::read_text_attribute(file, "title");
     origin.motion_of =
@@ -253,16 +253,8 @@ const TilesSummary& StoredResult::tiles() const
     return open_->tiles;
 }
 
-bool StoredResult::has_coordinate_checksums() const
-{
-    return origin_.format == layout::newest_format;
-}
-
 std::vector<std::string> StoredResult::damaged_coordinates() const
 {
-    if (!has_coordinate_checksums()) {
-        return {};
-    }
     return or_refused(path_, [&] {
         const std::uint64_t bytes = origin_.bytes;
         std::istringstream lines(read_text(open_->file, layout::coordinate_checksums, bytes));
@@ -414,11 +406,6 @@ void expect_result_of(const Job& job, const StoredResult& stored)
         refuse(fmt::format("is {} {}, but the job computes an {}. Choose another name with -o.",
                            origin.kind == FileKind::history ? "a" : "an", name_of(origin.kind),
                            name_of(FileKind(problem.product))));
-    }
-    if (origin.format != layout::newest_format) {
-        refuse(fmt::format("has the format of an earlier version ({}), which can be read but not "
-                           "resumed. Choose another name with -o.",
-                           origin.format));
     }
     if (origin.resolved_job != job.resolved) {
         refuse("belongs to another job: " + first_difference(origin.resolved_job, job.resolved));

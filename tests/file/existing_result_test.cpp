@@ -312,7 +312,6 @@ TEST_F(ExistingResult, IsRefusedIfACoordinateHasChanged)
 TEST_F(ExistingResult, HasChecksumsOfEveryCoordinate)
 {
     create();
-    EXPECT_TRUE(StoredResult(path).has_coordinate_checksums());
     EXPECT_THAT(StoredResult(path).damaged_coordinates(), IsEmpty());
     for (const char* name : {"slenderness", "restitution_of_maximum", "amplitude", "frequency",
                              "restitution", "pga"}) {
@@ -323,26 +322,12 @@ TEST_F(ExistingResult, HasChecksumsOfEveryCoordinate)
     }
 }
 
-TEST_F(ExistingResult, OfAnEarlierFormatCanBeReadButNotResumed)
-{
-    create();
-    set_attribute("format_version", std::int64_t(3));
-    const StoredResult stored(path);
-    EXPECT_EQ(stored.origin().format, 3);
-    EXPECT_EQ(stored.tiles().tiles, tiling_of(job.problem).size());
-    EXPECT_FALSE(stored.has_coordinate_checksums());
-    EXPECT_THAT(stored.damaged_coordinates(), IsEmpty());
-    EXPECT_THAT(stored.damaged_tiles(), IsEmpty());
-    EXPECT_THAT(refusal(path, job), HasSubstr("has the format of an earlier version (3), which can "
-                                              "be read but not resumed"));
-}
-
 TEST_F(ExistingResult, OfAnotherFormatIsRefused)
 {
     create();
     set_attribute("format_version", std::int64_t(2));
-    EXPECT_THAT(refusal(path, job), HasSubstr("has format version 2, but this program reads the "
-                                              "versions 3 and 4. Use an older program."));
+    EXPECT_THAT(refusal(path, job), HasSubstr("has format version 2, but this program reads "
+                                              "version 4. Use an older program, or compute"));
     set_attribute("format_version", std::int64_t(5));
     EXPECT_THAT(refusal(path, job), HasSubstr("Use a newer program."));
 }

@@ -7,8 +7,7 @@ OLD and NEW are programs. Both run the jobs of jobs/ and of tests/values/jobs, s
 boundaries, histories and accuracy studies. Every number and text in a result of OLD must be in that of
 NEW, bit for bit and of the same type; dimensions of length 1 are ignored. NEW must also write the same
 bytes on several ranks and with every kernel, and both must give the same answers with `topple`.
-Attributes that differ and new coordinates are reported only. stored_values.py lists the intended
-differences between formats; programs of format 3 read the jobs in the older spelling of r / r_max.
+Attributes that differ and new coordinates are reported only.
 
 --only chooses the comparisons whose names contain NAME; --figure-points sets the points of both axes of the figures of
 the paper, by default 400. --other-processor allows differences in the last digits of the values that
@@ -58,7 +57,7 @@ BOUNDARIES = [
      "plane.slenderness=0.2", "plane.restitution=0.85"),
     ("free_fall", "plane.slenderness=0.25", "plane.scale={first=1,last=4.9,count=20}"),
 ]
-# Also with the point, --at. A restitution in it is r, not r / r_max, whose name differs between formats.
+# Also with the point, --at.
 HISTORIES = [
     ("smoke", "frequency=3,amplitude=3.62"),
     ("figure_11b", "frequency=2,amplitude=3.1"),
@@ -109,23 +108,11 @@ def execute(command):
     return done.returncode, (done.stdout + "".join(messages)).strip(), seconds
 
 
-def write_older_jobs(folder):
-    """Copies the jobs to a folder, for programs of format 3, which know r / r_max in an older spelling only."""
-    for jobs in FOLDERS:
-        shutil.copytree(jobs, folder / jobs)
-    for path in folder.glob("**/*.toml"):
-        path.write_text(re.sub(
-            r"\brestitution_of_maximum = (?:\{ (.*?) \}|([0-9.]+))",
-            lambda share: f'restitution = {{ {share[1] or f"values = [{share[2]}]"}, of = "maximum" }}',
-            path.read_text()))
-
-
 class Comparison:
-    """Both programs, in a folder with the jobs; what was found."""
+    """Both programs; what was found."""
 
     def __init__(self, old, new, options):
         self.programs = {"old": old, "new": new}
-        self.folders = {"old": pathlib.Path(), "new": pathlib.Path()}  # of their jobs
         self.only = options.only
         self.other_processor = options.other_processor
         self.figure = [f"plane.{axis}.count={options.figure_points}" for axis in ("frequency", "amplitude")]
@@ -140,9 +127,6 @@ class Comparison:
         print(f"FAILED  {name}: {text}", flush=True)
 
     def everything(self):
-        if execute([self.programs["old"], "check", "jobs/smoke.toml"])[0] != 0:
-            self.folders["old"] = pathlib.Path("older")
-            write_older_jobs(self.folders["old"])
         folders = (pathlib.Path(folder) for folder in FOLDERS)
         jobs = {path.stem: path for folder in folders for path in sorted(folder.glob("**/*.toml"))}
         for name, job in jobs.items():
@@ -166,7 +150,7 @@ class Comparison:
         paths = {which: pathlib.Path(f"{command}_{job.stem}_{which}.h5") for which in self.programs}
         took = {}
         for which, program in self.programs.items():
-            code, said, took[which] = execute([program, command, self.folders[which] / job, *words, "-o", paths[which]])
+            code, said, took[which] = execute([program, command, job, *words, "-o", paths[which]])
             if code != 0:
                 return self.fail(name, f"exit code {code} of the {which} program: {said}")
         print(f"{took['old']:6.2f} s {took['new']:6.2f} s  {name}", flush=True)

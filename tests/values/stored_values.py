@@ -6,28 +6,6 @@ import shutil
 import h5py
 import numpy as np
 
-# Names in format 3 with those in format 4, and why. A row applies only if the new file has the new
-# name and is not of format 3 as well, see name_in().
-RENAMED = [
-    ("restitution_ratio", "restitution", "r has the name that jobs and tables of blocks give it"),
-    ("restitution", "restitution_of_maximum", "r / r_max has the name that tables of blocks give it"),
-    ("scaled_pga", "pga", "the peak of the scaled record has the name that it has under a pulse"),
-    ("half_diagonal", "size", "R has the name that it has as an axis"),
-    ("pga", "record_pga", "the measure of the record has the same name whether pga is an axis or not"),
-]
-
-# Values of the old file that the new one may lack, and the other way round, with the reasons. A new
-# coordinate is always allowed.
-MAY_BE_MISSING = {
-    "half_width": "stored as the job gives it, which may be the width",
-    "half_height": "stored as the job gives it, which may be the height",
-}
-MAY_BE_NEW = {
-    "run/coordinate_checksums": "coordinates are checked by checksums",
-    **dict.fromkeys(["pga", "pulse_period", "restitution_of_maximum", "size", "width", "height", "scale",
-                     "frequency_parameter"], "a history has all coordinates of its point"),
-}
-
 # Values of the free motion, which functions of the C library determine whose last digits depend on the
 # processor: asinh, atan, cosh, log, sinh and tan. They may differ by this number of units of the last place,
 # where `compare` is told so; the motion in a history after that of the ground, of the last place of the
@@ -77,16 +55,6 @@ def as_text(value):
     return value.decode(errors="replace") if isinstance(value, bytes) else str(value)
 
 
-def name_in(new, name, old, of):
-    """The name in the new file of what the old one calls `name`; `of` is of its restitutions."""
-    for before, after, _ in RENAMED:
-        both_have_both = after in old and name in new
-        is_absolute = name == "restitution" and of != "maximum"
-        if name == before and after in new and not both_have_both and not is_absolute:
-            return after
-    return name
-
-
 def coordinates(file):
     """Names of the dimensions, and of the coordinates that the fields name."""
     names = set()
@@ -95,15 +63,6 @@ def coordinates(file):
         if as_text(item.attrs.get("CLASS", "")) == "DIMENSION_SCALE":
             names.add(item.name.lstrip("/"))
     return names
-
-
-def spread(new, old):
-    """The new values along the dimensions of the old ones, where the old file repeated them."""
-    lengths = dict(zip(new.dimensions, np.shape(new.values)))
-    if not set(lengths) < set(old.dimensions):
-        return new.values
-    shape = [lengths.get(dimension, 1) for dimension in old.dimensions]
-    return np.broadcast_to(np.reshape(new.values, shape), np.shape(old.values))
 
 
 def allowed_difference(old, name):
@@ -147,25 +106,23 @@ def compare(old_path, new_path, notes, c_library_differs=False):
     `notes`: differing attributes and new coordinates."""
     with h5py.File(old_path) as old_file, h5py.File(new_path) as new_file:
         old, new = stored(old_file), stored(new_file)
-        of = old_file["restitution"].attrs.get("of", "") if "restitution" in old_file else ""
-        names = {name: name_in(new, name, old, as_text(of)) for name in old}
         found = []
-        for name, after in names.items():
-            if after in new:
-                values = new[after].values if name == after else spread(new[after], old[name])
-                text = difference(old[name].values, values, allowed_difference(old, name) if c_library_differs else 0)
+        for name, before in old.items():
+            if name in new:
+                allowed = allowed_difference(old, name) if c_library_differs else 0
+                text = difference(before.values, new[name].values, allowed)
                 found += [f"{name}: {text}"] if text else []
-            elif name not in MAY_BE_MISSING:
+            else:
                 found.append(f"{name}: missing")
-        for name in new.keys() - set(names.values()):
+        for name in new.keys() - old.keys():
             if name in coordinates(new_file):
                 notes[f"coordinate {name} added"] += 1
-            elif name not in MAY_BE_NEW:
+            else:
                 found.append(f"{name}: not in the old file")
         note_attributes("the file", old_file, new_file, notes)
-        for name, after in names.items():
-            if name in old_file and after in new_file:
-                note_attributes(name, old_file[name], new_file[after], notes)
+        for name in old.keys() & new.keys():
+            if name in old_file and name in new_file:
+                note_attributes(name, old_file[name], new_file[name], notes)
     return found
 
 

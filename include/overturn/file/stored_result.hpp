@@ -33,7 +33,6 @@ inline constexpr std::array<std::string_view, 4> names_of<FileKind>{
 /// The metadata that every kind of result file contains.
 struct FileOrigin {
     FileKind kind = FileKind::spectrum;
-    std::int64_t format = 0; ///< version of the layout
     std::string title;
     MotionOf motion_of = MotionOf::ground;
     std::string program_version;
@@ -79,9 +78,6 @@ public:
 
     /// The rest is for spectra and boundaries.
     const TilesSummary& tiles() const;
-
-    /// False for files of format 3.
-    bool has_coordinate_checksums() const;
 
     /// Names of the coordinates whose values do not match their checksums, if there are any.
     std::vector<std::string> damaged_coordinates() const;
