@@ -136,7 +136,7 @@ std::string sidecar_of(const Task& task, const FarmReport& report, double second
                        sidecar_beginning, in_quotes(program_version()), in_quotes(program_commit()),
                        fmt::gmtime(start), seconds, in_quotes(name_of(task.kernel)),
                        in_quotes(compiler_version()), in_quotes(hdf5_version()),
-                       in_quotes(mpi_version()), report.dealing.requests, report.dealing.seconds,
+                       in_quotes(mpi_version()), report.dispatch.requests, report.dispatch.seconds,
                        fmt::join(ranks, ",\n"));
 }
 

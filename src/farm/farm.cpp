@@ -4,7 +4,7 @@
 // repeats its request, which shows that it is alive; the last answer is `end_of_work`.
 #include "overturn/farm/farm.hpp"
 
-#include "overturn/farm/tile_dealer.hpp"
+#include "overturn/farm/tile_dispatcher.hpp"
 #include "overturn/text/error.hpp"
 
 #include <algorithm>
@@ -183,12 +183,12 @@ class Leader {
 public:
     Leader(const MpiSession& session, const std::vector<std::int64_t>& tiles,
            const TileWork& tile_work, const StopRequest& stop, std::chrono::seconds patience)
-        : session_(session), dealer_(tiles, session.size()), tile_work_(tile_work), stop_(stop),
+        : session_(session), dispatcher_(tiles, session.size()), tile_work_(tile_work), stop_(stop),
           patience_(patience), workers_(std::size_t(session.size()))
     {}
 
     /// Answers every request that has arrived, then computes one tile, until no tile is left and
-    /// all workers are done. Returns its own share and the cost of dealing. Throws Error if a
+    /// all workers are done. Returns its own share and the cost of dispatching. Throws Error if a
     /// worker is silent.
     FarmReport lead()
     {
@@ -202,7 +202,7 @@ public:
         };
         while (true) {
             communicate();
-            const TileRange own = dealer_.deal_one();
+            const TileRange own = dispatcher_.next_tile();
             if (!own.empty()) {
                 do_tile(own.begin, tile_work_, drop_requested, share_);
             } else if (!std::all_of(workers_.begin() + 1, workers_.end(),
@@ -212,7 +212,7 @@ public:
                 for (int rank = 1; rank < int(workers_.size()); ++rank) {
                     answer(rank, end_of_work);
                 }
-                return {.ranks = {share_}, .dealing = dealing_};
+                return {.ranks = {share_}, .dispatch = dispatch_};
             }
         }
     }
@@ -229,7 +229,7 @@ private:
     void communicate()
     {
         if (stop_.requested()) {
-            dealer_.stop();
+            dispatcher_.stop();
         }
         receive_all();
         if (timeout_check_.is_due()) {
@@ -266,18 +266,18 @@ private:
         done_by_workers_ += message.tiles_done;
         busy_seconds_of_workers_ += 1e-9 * double(message.busy_nanoseconds);
         if (message.stop) {
-            dealer_.stop();
+            dispatcher_.stop();
         }
         worker.waits = worker.waits || message.requests_range;
         worker.idle = message.idle; // counts only while it waits: otherwise an answer is on its way
         if (message.requests_range) {
-            const TileRange range = dealer_.deal(limits());
+            const TileRange range = dispatcher_.next_range(limits());
             if (!range.empty()) {
                 answer(rank, range);
             }
             const std::chrono::duration<double> seconds = Clock::now() - start;
-            ++dealing_.requests;
-            dealing_.seconds += std::min(seconds.count(), longest_answer);
+            ++dispatch_.requests;
+            dispatch_.seconds += std::min(seconds.count(), longest_answer);
         }
     }
 
@@ -291,10 +291,10 @@ private:
     RangeLimits limits() const
     {
         const std::int64_t done = share_.tiles + done_by_workers_;
-        if (done == 0 || dealing_.requests == 0) {
+        if (done == 0 || dispatch_.requests == 0) {
             return {};
         }
-        return range_limits(int(workers_.size()), dealing_.seconds / double(dealing_.requests),
+        return range_limits(int(workers_.size()), dispatch_.seconds / double(dispatch_.requests),
                             (busy_seconds(share_) + busy_seconds_of_workers_) / double(done));
     }
 
@@ -321,7 +321,7 @@ private:
     }
 
     const MpiSession& session_;
-    TileDealer dealer_;
+    TileDispatcher dispatcher_;
     const TileWork& tile_work_;
     const StopRequest& stop_;
     std::chrono::seconds patience_;
@@ -331,7 +331,7 @@ private:
     RankShare share_;
     std::int64_t done_by_workers_ = 0;
     double busy_seconds_of_workers_ = 0;
-    DealingShare dealing_;
+    DispatchCost dispatch_;
 };
 
 } // namespace

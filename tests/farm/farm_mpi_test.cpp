@@ -112,8 +112,8 @@ TEST(Farm, ReportsTheShareOfEachRank)
         EXPECT_GE(report.ranks[rank].write_seconds, 0.001 * double(counted[rank]));
     }
     // Every worker requests its first range, and one ahead of each.
-    EXPECT_GE(report.dealing.requests, 2 * (session.size() - 1));
-    EXPECT_EQ(report.dealing.seconds > 0, session.size() > 1);
+    EXPECT_GE(report.dispatch.requests, 2 * (session.size() - 1));
+    EXPECT_EQ(report.dispatch.seconds > 0, session.size() > 1);
 }
 
 TEST(Farm, ProgressIncreasesToTheNumberOfTiles)
@@ -142,8 +142,8 @@ TEST(Farm, SharesUnequalTilesEvenly)
         most = std::max(most, rank.compute_seconds);
     }
     // Equal parts of the list would give the first rank all the long tiles: 1.6 fair shares of the
-    // 580 ms on two ranks, 2.4 on three, 3.6 on five. With tiles dealt on request, the busiest rank
-    // has 1.1 on an idle machine; on a busy one its time may be half as long again.
+    // 580 ms on two ranks, 2.4 on three, 3.6 on five. With tiles dispatched on request, the busiest
+    // rank has 1.1 on an idle machine; on a busy one its time may be half as long again.
     if (session.rank() == 0 && session.size() > 1) {
         EXPECT_LT(most, 20 * 0.019 + 0.001 * (200.0 / session.size() - 20));
     }

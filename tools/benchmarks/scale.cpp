@@ -1,12 +1,12 @@
 // bench_scale ANSWER TILE MOST_RANKS: event-based simulation of runs on up to MOST_RANKS ranks.
 // ANSWER and TILE: seconds that rank 0 takes to answer a request, and a rank for a tile. Tiles are
-// dealt by the TileDealer of the program; everything else is modelled:
+// dispatched by the TileDispatcher of the program; everything else is modelled:
 //   - a worker requests one range ahead, and a message takes 2 us;
 //   - a tile takes TILE on average, with half of that as its standard deviation;
 //   - rank 0 answers requests one by one, and computes a tile when there are none.
 // Prints, as JSON, the share of the time of all ranks that is spent on tiles, and the share of
 // rank 0 on answers, for range lengths from range_limits(), and for ranges of 1 to 16 tiles.
-#include "overturn/farm/tile_dealer.hpp"
+#include "overturn/farm/tile_dispatcher.hpp"
 
 #include <fmt/format.h>
 
@@ -38,7 +38,8 @@ struct Outcome {
 class Simulation {
 public:
     Simulation(const Costs& costs, int ranks, std::int64_t tiles, const RangeLimits& limits)
-        : costs_(costs), limits_(limits), dealer_(all(tiles), ranks), workers_(std::size_t(ranks))
+        : costs_(costs), limits_(limits), dispatcher_(all(tiles), ranks),
+          workers_(std::size_t(ranks))
     {}
 
     Outcome run()
@@ -64,8 +65,8 @@ private:
         bool operator<(const Event& other) const { return time > other.time; } // soonest first
     };
     struct Worker {
-        std::int64_t ahead = 0; ///< tiles of the range that has arrived
-        std::int64_t dealt = 0; ///< tiles of the range that is in transit
+        std::int64_t ahead = 0;      ///< tiles of the range that has arrived
+        std::int64_t dispatched = 0; ///< tiles of the range that is in transit
         bool computes = false;
     };
 
@@ -82,7 +83,7 @@ private:
         Worker& worker = workers_[event.worker];
         switch (event.kind) {
         case Kind::requested: requests_.push_back(event.worker); break;
-        case Kind::answered: worker.ahead = worker.dealt; break;
+        case Kind::answered: worker.ahead = worker.dispatched; break;
         case Kind::computed: worker.computes = false; break;
         case Kind::rank_0_is_free: rank_0_is_busy_ = false; break;
         }
@@ -114,12 +115,12 @@ private:
         if (!requests_.empty()) {
             const std::size_t worker = requests_.front();
             requests_.pop_front();
-            const TileRange range = dealer_.deal(limits_);
-            workers_[worker].dealt = range.end - range.begin;
+            const TileRange range = dispatcher_.next_range(limits_);
+            workers_[worker].dispatched = range.end - range.begin;
             seconds = costs_.answer;
             answering_ += seconds;
             events_.push({time + seconds + message_seconds, Kind::answered, worker});
-        } else if (!dealer_.deal_one().empty()) {
+        } else if (!dispatcher_.next_tile().empty()) {
             seconds = compute(1, time);
         } else {
             return;
@@ -141,7 +142,7 @@ private:
 
     Costs costs_;
     RangeLimits limits_;
-    TileDealer dealer_;
+    TileDispatcher dispatcher_;
     std::vector<Worker> workers_;
     std::deque<std::size_t> requests_;
     std::priority_queue<Event> events_;

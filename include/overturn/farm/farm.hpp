@@ -37,7 +37,7 @@ struct RankShare {
 };
 
 /// The cost of handing out the tiles.
-struct DealingShare {
+struct DispatchCost {
     std::int64_t requests = 0; ///< answered by rank 0
     double seconds = 0;        ///< spent on the answers
 };
@@ -46,7 +46,7 @@ struct FarmReport {
     bool stopped = false;         ///< tiles are left because a rank was asked to stop
     RankShare all = {};           ///< the sum over all ranks
     std::vector<RankShare> ranks; ///< rank 0 only: one per rank
-    DealingShare dealing;         ///< rank 0 only
+    DispatchCost dispatch;        ///< rank 0 only
 };
 
 /// Computes and writes each of the tiles once, on some rank. Collective.

@@ -29,16 +29,16 @@ struct RangeLimits {
 /// workers finish them.
 RangeLimits range_limits(int ranks, double seconds_of_answer, double seconds_of_tile);
 
-class TileDealer {
+class TileDispatcher {
 public:
     /// tiles: numbers, strictly ascending.
-    TileDealer(std::vector<std::int64_t> tiles, int ranks);
+    TileDispatcher(std::vector<std::int64_t> tiles, int ranks);
 
     /// The next range; empty if no tile is left.
-    TileRange deal(const RangeLimits& limits = {});
+    TileRange next_range(const RangeLimits& limits = {});
 
     /// The next tile as a range; empty if no tile is left.
-    TileRange deal_one() { return deal({.least = 1, .most = 1}); }
+    TileRange next_tile() { return next_range({.least = 1, .most = 1}); }
 
     /// Discards the remaining tiles.
     void stop() { next_ = tiles_.size(); }

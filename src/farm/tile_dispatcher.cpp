@@ -1,4 +1,4 @@
-#include "overturn/farm/tile_dealer.hpp"
+#include "overturn/farm/tile_dispatcher.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,11 +34,11 @@ RangeLimits range_limits(int ranks, double seconds_of_answer, double seconds_of_
     return limits;
 }
 
-TileDealer::TileDealer(std::vector<std::int64_t> tiles, int ranks)
+TileDispatcher::TileDispatcher(std::vector<std::int64_t> tiles, int ranks)
     : tiles_(std::move(tiles)), ranks_(std::size_t(ranks))
 {}
 
-TileRange TileDealer::deal(const RangeLimits& limits)
+TileRange TileDispatcher::next_range(const RangeLimits& limits)
 {
     // Never more than half of a fair share: the other ranks would wait for this one at the end.
     const std::size_t left = tiles_.size() - next_;

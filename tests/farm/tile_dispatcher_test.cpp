@@ -1,4 +1,4 @@
-#include "overturn/farm/tile_dealer.hpp"
+#include "overturn/farm/tile_dispatcher.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,11 +17,11 @@ std::vector<std::int64_t> first_numbers(std::size_t count)
     return numbers;
 }
 
-std::vector<TileRange> deal_out(TileDealer dealer)
+std::vector<TileRange> dispatch_all(TileDispatcher dispatcher)
 {
     std::vector<TileRange> ranges;
     while (true) {
-        const TileRange range = dealer.deal();
+        const TileRange range = dispatcher.next_range();
         if (range.empty()) {
             return ranges;
         }
@@ -40,17 +40,17 @@ std::vector<std::int64_t> numbers_in(const std::vector<TileRange>& ranges)
     return numbers;
 }
 
-TEST(TileDealer, DealsEachTileOnceInOrder)
+TEST(TileDispatcher, DispatchesEachTileOnceInOrder)
 {
     for (const std::size_t count : {0, 1, 2, 7, 100, 1001}) {
         for (const int ranks : {1, 2, 3, 64}) {
             const auto tiles = first_numbers(count);
-            EXPECT_EQ(numbers_in(deal_out({tiles, ranks})), tiles) << count << " for " << ranks;
+            EXPECT_EQ(numbers_in(dispatch_all({tiles, ranks})), tiles) << count << " for " << ranks;
         }
     }
 }
 
-TEST(TileDealer, SplitsRangesWhereNumbersAreMissing)
+TEST(TileDispatcher, SplitsRangesWhereNumbersAreMissing)
 {
     // Missing tiles of an interrupted run: scattered where its ranks had computed.
     std::vector<std::int64_t> tiles;
@@ -59,12 +59,12 @@ TEST(TileDealer, SplitsRangesWhereNumbersAreMissing)
             tiles.push_back(number);
         }
     }
-    EXPECT_EQ(numbers_in(deal_out({tiles, 2})), tiles);
+    EXPECT_EQ(numbers_in(dispatch_all({tiles, 2})), tiles);
 }
 
-TEST(TileDealer, DealsShorterRangesTowardsTheEnd)
+TEST(TileDispatcher, DispatchesShorterRangesTowardsTheEnd)
 {
-    const auto ranges = deal_out({first_numbers(1000), 2});
+    const auto ranges = dispatch_all({first_numbers(1000), 2});
     const auto length = [](const TileRange& range) { return range.end - range.begin; };
     for (std::size_t i = 1; i < ranges.size(); ++i) {
         EXPECT_LE(length(ranges[i]), length(ranges[i - 1]));
@@ -76,19 +76,19 @@ TEST(TileDealer, DealsShorterRangesTowardsTheEnd)
     }
 }
 
-TEST(TileDealer, DealsRangesWithinLimitsUntilTheEnd)
+TEST(TileDispatcher, DispatchesRangesWithinLimitsUntilTheEnd)
 {
-    TileDealer dealer(first_numbers(10000), 4);
+    TileDispatcher dispatcher(first_numbers(10000), 4);
     const RangeLimits limits{.least = 5, .most = 40};
     std::int64_t left = 10000;
     while (left > 0) {
-        const TileRange range = dealer.deal(limits);
+        const TileRange range = dispatcher.next_range(limits);
         const std::int64_t length = range.end - range.begin;
         EXPECT_LE(length, 40);
         EXPECT_GE(length, std::clamp<std::int64_t>(left / 8, 1, 5)); // half of a fair share
         left -= length;
     }
-    EXPECT_TRUE(dealer.deal(limits).empty());
+    EXPECT_TRUE(dispatcher.next_range(limits).empty());
 }
 
 TEST(RangeLimits, LeaveRank0HalfOfItsTimeForTiles)
@@ -109,13 +109,13 @@ TEST(RangeLimits, AreThoseOfAFewRanksIfRank0HasTime)
     EXPECT_GE(range_limits(1 << 20, 1e-3, 1e-9).most, range_limits(1 << 20, 1e-3, 1e-9).least);
 }
 
-TEST(TileDealer, DealsNothingAfterAStop)
+TEST(TileDispatcher, DispatchesNothingAfterAStop)
 {
-    TileDealer dealer(first_numbers(10), 1);
-    EXPECT_FALSE(dealer.deal_one().empty());
-    dealer.stop();
-    EXPECT_TRUE(dealer.deal().empty());
-    EXPECT_TRUE(dealer.deal_one().empty());
+    TileDispatcher dispatcher(first_numbers(10), 1);
+    EXPECT_FALSE(dispatcher.next_tile().empty());
+    dispatcher.stop();
+    EXPECT_TRUE(dispatcher.next_range().empty());
+    EXPECT_TRUE(dispatcher.next_tile().empty());
 }
 
 } // namespace
