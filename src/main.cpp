@@ -1,5 +1,5 @@
 #include "commands/command_line.hpp"
-#include "commands/complain.hpp"
+#include "commands/report/print.hpp"
 
 #include "overturn/farm/mpi_session.hpp"
 #include "overturn/sweep/compute_tile.hpp"
@@ -27,6 +27,6 @@ int main(int argc, char** argv)
         }
         return code;
     } catch (const std::exception& error) {
-        return leads ? complain(error) : exit_code::complete;
+        return leads ? print_error(error) : exit_code::complete;
     }
 }

@@ -1,9 +1,8 @@
 #include "commands.hpp"
-#include "guarded_reading.hpp"
-#include "job_lines.hpp"
-#include "output_lines.hpp"
+#include "prepare_output.hpp"
+#include "report/job.hpp"
+#include "report/print.hpp"
 
-#include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/text/error.hpp"
@@ -44,12 +43,13 @@ double seconds_in_digits(const Job& job)
 
 void print_head(const AccuracySample& sample)
 {
-    say(fmt::format("{} points, {} with a settled verdict, {} in 50 digits\n", sample.grid.points(),
-                    sample.settled, sample.in_digits));
-    say(fmt::format("{:<15} {:>9} {:>9} {:>7} {:>6}   {:^29}  {:>8} {:>6} {:>6} {:>9}", "", "",
-                    "time per", "", "evalu-", "error of the margin", "wrong", "unde-", "error",
-                    "bound /"));
-    say(fmt::format("{:<15} {:>9} {:>9} {:>7} {:>6}   {:>9} {:>9} {:>9}  {:>8} {:>6} {:>6} {:>9}",
+    print_line(fmt::format("{} points, {} with a settled verdict, {} in 50 digits\n",
+                           sample.grid.points(), sample.settled, sample.in_digits));
+    print_line(fmt::format("{:<15} {:>9} {:>9} {:>7} {:>6}   {:^29}  {:>8} {:>6} {:>6} {:>9}", "",
+                           "", "time per", "", "evalu-", "error of the margin", "wrong", "unde-",
+                           "error", "bound /"));
+    print_line(
+        fmt::format("{:<15} {:>9} {:>9} {:>7} {:>6}   {:>9} {:>9} {:>9}  {:>8} {:>6} {:>6} {:>9}",
                     "method", "tolerance", "point", "steps", "ations", "median", "99 %", "largest",
                     "verdicts", "cided", "> bound", "error"));
 }
@@ -63,12 +63,12 @@ void print_row(const AccuracyRow& row, const AccuracySample& sample)
     const auto share = [](double value) {
         return std::isnan(value) ? std::string("-") : fmt::format("{:.2g}", value);
     };
-    say(fmt::format("{:<15} {:>9.0e} {:>6.3f} us {:>7.1f} {:>6.0f}   {:>9.1e} {:>9.1e} {:>9.1e}  "
-                    "{:>8} {:>6} {:>6} {:>9}",
-                    name, row.numerics.tolerance, 1e6 * row.seconds_per_point, row.steps,
-                    row.evaluations, row.margin[0], row.margin[2], row.margin[4],
-                    sample.settled == 0 ? "-" : share(wrong), row.undecided,
-                    share(row.bound_exceeded), share(row.bound_over_error)));
+    print_line(fmt::format(
+        "{:<15} {:>9.0e} {:>6.3f} us {:>7.1f} {:>6.0f}   {:>9.1e} {:>9.1e} {:>9.1e}  "
+        "{:>8} {:>6} {:>6} {:>9}",
+        name, row.numerics.tolerance, 1e6 * row.seconds_per_point, row.steps, row.evaluations,
+        row.margin[0], row.margin[2], row.margin[4], sample.settled == 0 ? "-" : share(wrong),
+        row.undecided, share(row.bound_exceeded), share(row.bound_over_error)));
 }
 
 } // namespace
@@ -84,13 +84,10 @@ int accuracy(const AccuracyOptions& options)
                     options.job.path, job.blocks->file);
     }
     const SoleWriter sole_writer(options.output);
-    {
-        const GuardedReading guarded(options.output, sole_writer.lock());
-        expect_room_for(options.output, FileKind::accuracy);
-    }
-
-    warn_of_probable_mistakes(job);
-    say(fmt::format("settling verdicts and computing about {} points in 50 digits: about {} s",
+    expect_study_output(options.output, FileKind::accuracy, sole_writer);
+    print_warnings(warnings_on(job));
+    print_line(
+        fmt::format("settling verdicts and computing about {} points in 50 digits: about {} s",
                     options.digits, std::ceil(seconds_in_digits(job) * double(options.digits))));
     const AccuracyStudy study(job.problem.scene, job.problem.grid, options.points, options.digits,
                               kernel);
@@ -103,7 +100,7 @@ int accuracy(const AccuracyOptions& options)
         print_row(rows.back(), study.sample());
     }
     write_accuracy_file(options.output, job, study.sample(), rows);
-    say(fmt::format("\n{0}: written; draw it with tools/plot_accuracy {0}", options.output));
+    print_line(fmt::format("\n{0}: written; draw it with tools/plot_accuracy {0}", options.output));
     return exit_code::complete;
 }
 

@@ -1,12 +1,11 @@
 #include "commands.hpp"
-#include "job_lines.hpp"
-#include "output_lines.hpp"
-#include "overturn/text/quoting.hpp"
+#include "report/job.hpp"
+#include "report/print.hpp"
 
 #include "overturn/file/spectrum_file.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/compute_tile.hpp"
-#include "overturn/text/error.hpp"
+#include "overturn/text/quoting.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -122,46 +121,6 @@ void print_time(const Problem& problem, Kernel kernel)
     }
 }
 
-void print_pulse(const Scene& scene)
-{
-    print_row("pulse", name_of(scene.pulse));
-    for (const auto& [name, number] : shape_numbers) {
-        if (number == &PulseShape::window && has_window(scene.pulse)) {
-            print_row(name,
-                      fmt::format("-{0} to {0} pulse periods, truncated at {1:.2g} % of the peak",
-                                  scene.shape.window, 100 * cut_by_window(scene)));
-        } else if (has_number(scene.pulse, number)) {
-            print_row(name, fmt::format("{}{}", scene.shape.*number,
-                                        number == &PulseShape::nu ? " rad" : " pulse periods"));
-        }
-    }
-}
-
-void print_scene(const Job& job)
-{
-    for (const std::string& line : record_lines(job)) {
-        print_row("record", line);
-    }
-    const auto& [scene, grid, numerics, product, fields] = job.problem;
-    if (!scene.is_recorded()) {
-        print_pulse(scene);
-    }
-    print_motion_of("motion", scene.motion_of);
-    print_row("theory", name_of(scene.theory));
-    print_row("method",
-              fmt::format("{}, tolerance {}{}", name_of(numerics.method), numerics.tolerance,
-                          numerics.resolve ? ", verdicts resolved" : ""));
-}
-
-void print_coordinates(const Grid& grid)
-{
-    for (const Column* column : grid.outside_table()) {
-        const auto& [quantity, values] = *column;
-        print_axis(quantity->name, values.size(), values.first(), values.last(),
-                   unit_text(*quantity));
-    }
-}
-
 void print_size(const Job& job)
 {
     const Problem& problem = job.problem;
@@ -182,23 +141,8 @@ int check(const JobSource& source)
 {
     const Kernel kernel = widest_kernel(); // throws if this processor supports none
     const Job job = read_job(source.path, source.overrides);
-    warn_of_probable_mistakes(job);
-    if (!job.title.empty()) {
-        fmt::print("{}\n\n", printable(job.title));
-    }
-    print_scene(job);
-    print_coordinates(job.problem.grid);
-    print_row(job.blocks ? "blocks" : "block", block_line(job));
-    if (has_contact_forces(job.problem.scene.theory)) {
-        print_row("contact", contact_line(job));
-    }
-    if (const std::string names = unused_columns(job); !names.empty()) {
-        print_row("columns", names + ": stored, without effect");
-    }
-    print_row(name_of(job.problem.scene.motion_of), ground_line(job));
-    for (const std::string& line : free_fall_lines(job)) {
-        print_row("note", line);
-    }
+    print_warnings(warnings_on(job));
+    print_job(job);
     print_size(job);
     print_time(job.problem, kernel);
     return exit_code::complete;

@@ -1,10 +1,9 @@
 #include "commands.hpp"
-#include "output_lines.hpp"
-#include "overturn/text/quoting.hpp"
+#include "report/print.hpp"
 
 #include "overturn/file/provenance.hpp"
 #include "overturn/sweep/kernel.hpp"
-#include "overturn/text/error.hpp"
+#include "overturn/text/quoting.hpp"
 
 #include <cstdio>
 #include <cstdlib>

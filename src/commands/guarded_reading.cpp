@@ -19,18 +19,18 @@ namespace overturn {
 
 namespace {
 
-constexpr std::array ends{SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGPROF};
+constexpr std::array fatal_signals{SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGPROF};
 
 /// What the handler needs, prepared because it may neither allocate nor format.
-struct LastWords {
-    std::array<std::string, ends.size()> messages; ///< in the order of `ends`
+struct HandlerData {
+    std::array<std::string, fatal_signals.size()> messages; ///< in the order of `fatal_signals`
     std::string lock;
 };
-LastWords last_words;
+HandlerData handler_data;
 
 /// What the destructor restores.
 struct Replaced {
-    std::array<struct sigaction, ends.size()> actions;
+    std::array<struct sigaction, fatal_signals.size()> actions;
     stack_t stack;
     rlimit data;
 };
@@ -38,12 +38,12 @@ Replaced replaced;
 
 std::array<char, std::size_t(1) << 18> stack_of_handler; // for stack overflows
 
-extern "C" void end_process(int signal)
+extern "C" void print_and_exit(int signal)
 {
-    const auto* const found = std::find(ends.begin(), ends.end(), signal);
-    const std::string& message = last_words.messages[std::size_t(found - ends.begin())];
+    const auto* const found = std::find(fatal_signals.begin(), fatal_signals.end(), signal);
+    const std::string& message = handler_data.messages[std::size_t(found - fatal_signals.begin())];
     [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
-    unlink(last_words.lock.c_str());
+    unlink(handler_data.lock.c_str());
     end_all_ranks(exit_code::output);
 }
 
@@ -68,21 +68,22 @@ void limit_processor_time(rlim_t seconds)
 
 GuardedReading::GuardedReading(const std::string& path, const std::string& lock)
 {
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-        last_words.messages[i] = fmt::format(
-            "overturn: \"{}\" is damaged: the HDF5 library {}.\n", printable(path),
-            ends[i] == SIGPROF ? "does not finish reading it in time"
-                               : fmt::format("crashes while reading it ({})", strsignal(ends[i])));
+    for (std::size_t i = 0; i < fatal_signals.size(); ++i) {
+        handler_data.messages[i] =
+            fmt::format("overturn: \"{}\" is damaged: the HDF5 library {}.\n", printable(path),
+                        fatal_signals[i] == SIGPROF ? "does not finish reading it in time"
+                                                    : fmt::format("crashes while reading it ({})",
+                                                                  strsignal(fatal_signals[i])));
     }
-    last_words.lock = lock;
+    handler_data.lock = lock;
     const stack_t stack{
         .ss_sp = stack_of_handler.data(), .ss_flags = 0, .ss_size = stack_of_handler.size()};
     sigaltstack(&stack, &replaced.stack);
     struct sigaction action = {};
-    action.sa_handler = end_process;
+    action.sa_handler = print_and_exit;
     action.sa_flags = SA_ONSTACK | SA_NODEFER; // MPI may crash in the handler
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-        sigaction(ends[i], &action, &replaced.actions[i]);
+    for (std::size_t i = 0; i < fatal_signals.size(); ++i) {
+        sigaction(fatal_signals[i], &action, &replaced.actions[i]);
     }
 
     std::error_code none;
@@ -101,8 +102,8 @@ GuardedReading::~GuardedReading()
 {
     setrlimit(RLIMIT_DATA, &replaced.data);
     limit_processor_time(0);
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-        sigaction(ends[i], &replaced.actions[i], nullptr);
+    for (std::size_t i = 0; i < fatal_signals.size(); ++i) {
+        sigaction(fatal_signals[i], &replaced.actions[i], nullptr);
     }
     sigaltstack(&replaced.stack, nullptr);
 }

@@ -1,10 +1,10 @@
 #include "commands.hpp"
-#include "guarded_reading.hpp"
-#include "job_lines.hpp"
-#include "only_point.hpp"
-#include "output_lines.hpp"
+#include "point_history.hpp"
+#include "prepare_output.hpp"
+#include "report/job.hpp"
+#include "report/print.hpp"
+#include "report/verdict.hpp"
 
-#include "overturn/file/sole_writer.hpp"
 #include "overturn/file/study_files.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/job/schema.hpp"
@@ -156,8 +156,7 @@ void print_events(const History& history, const Units& units)
     }
 }
 
-void print_outcome(const History& history, const std::optional<double>& slenderness, double peak,
-                   const Units& units)
+void print_outcome(const History& history, const Problem& problem, const Units& units)
 {
     const auto time = [&](double value) {
         return std::isnan(value) ? std::string("unknown")
@@ -169,7 +168,7 @@ void print_outcome(const History& history, const std::optional<double>& slendern
     print_row("margin", history.is_curve_certain ? fmt::format("{:.6g}, error at most {:.1g}",
                                                                history.margin, history.error)
                                                  : "unknown");
-    print_row("peak", peak_text(peak, slenderness));
+    print_row("peak", peak_text(accurate_values(problem, Field::peak).front(), problem));
     print_row("falls", time(history.time_of_fall));
     print_row("rests", time(history.time_of_rest));
     if (!history.is_curve_certain) {
@@ -185,19 +184,43 @@ void print_outcome(const History& history, const std::optional<double>& slendern
     }
 }
 
+/// Throws Error if the motion overflows.
+void expect_finite(const History& history, const Grid& grid)
+{
+    const bool finite = std::ranges::all_of(history.samples, [](const HistorySample& sample) {
+        return std::isfinite(sample.angle) && std::isfinite(sample.velocity) &&
+               std::isfinite(sample.acceleration) && std::isfinite(sample.q);
+    });
+    if (!finite) {
+        const Column& strength = *grid.axis_or_number(Role::strength);
+        throw Error(exit_code::job,
+                    "plane.{} = {} moves the block beyond the range of double precision. Lower "
+                    "it. (In a spectrum such a point is undecided, with the flag not_finite in "
+                    "status.)",
+                    strength.quantity->name, strength.values.first());
+    }
+}
+
 } // namespace
+
+History history_of_only_point(const Job& job, HistoryView view)
+{
+    const Scene& scene = job.problem.scene;
+    if (scene.is_recorded()) {
+        view.samples = int(std::max<std::int64_t>(view.samples, scene.records.front()->samples()));
+    }
+    History history = history_of(scene, only_point_of(job.problem), view);
+    expect_finite(history, job.problem.grid);
+    return history;
+}
 
 int history(const HistoryOptions& options)
 {
     widest_kernel(); // throws if this processor supports none
     const Job job = read_job_of_one_point(options);
     const SoleWriter sole_writer(options.output);
-    {
-        const GuardedReading guarded(options.output, sole_writer.lock());
-        expect_room_for(options.output, FileKind::history);
-    }
-    warn_of_probable_mistakes(job);
-    const auto slenderness = slenderness_of_only_block(job);
+    expect_study_output(options.output, FileKind::history, sole_writer);
+    print_warnings(warnings_on(job));
     HistoryView view{.samples = options.samples};
     if (options.until > 0) {
         view.until = options.until;
@@ -206,7 +229,7 @@ int history(const HistoryOptions& options)
     const auto parameter = extent_of(job, "frequency_parameter");
     const auto p = parameter ? std::optional(parameter->first) : std::nullopt; // [1/s]
     const Units units(p);
-    print_outcome(history, slenderness, accurate_values(job.problem, Field::peak).front(), units);
+    print_outcome(history, job.problem, units);
     print_events(history, units);
     write_history_file(options.output, job, history);
     fmt::print("\n{0}: written; draw it with tools/plot_history {0}\n", options.output);

@@ -1,11 +1,10 @@
 #include "commands.hpp"
 #include "guarded_reading.hpp"
-#include "output_lines.hpp"
-#include "overturn/text/quoting.hpp"
-#include "remarks.hpp"
+#include "report/print.hpp"
+#include "report/result.hpp"
 
 #include "overturn/file/stored_result.hpp"
-#include "overturn/text/error.hpp"
+#include "overturn/text/quoting.hpp"
 
 #include <fmt/ranges.h>
 

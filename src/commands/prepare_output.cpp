@@ -1,13 +1,12 @@
 #include "prepare_output.hpp"
 
-#include "complain.hpp"
 #include "guarded_reading.hpp"
-#include "output_lines.hpp"
+#include "report/print.hpp"
 
 #include "overturn/farm/stop_signals.hpp"
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/spectrum_file.hpp"
-#include "overturn/file/stored_result.hpp"
+#include "overturn/file/study_files.hpp"
 
 #include <fmt/format.h>
 
@@ -33,7 +32,7 @@ std::vector<std::int64_t> find_damaged_tiles(const StoredResult& stored)
     bool announced = false;
     return stored.damaged_tiles([&] {
         if (!announced && std::chrono::steady_clock::now() - start > std::chrono::seconds(2)) {
-            say(stored.path() + ": verifying finished tiles");
+            print_line(stored.path() + ": verifying finished tiles");
             announced = true;
         }
         expect_no_stop(" before the computation started");
@@ -63,7 +62,7 @@ std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const st
     }
     if (is_complete) {
         clear_open_mark(path);
-        say(path + " is already complete.");
+        print_line(path + " is already complete.");
         return std::nullopt;
     }
     expect_place_for_sidecar(path);
@@ -71,12 +70,18 @@ std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const st
         const auto bytes = double(spectrum_file_bytes(job));
         constexpr double made_at_once = 1e8;
         if (bytes > made_at_once) {
-            say(fmt::format("{}: creating a file of {}", path, human_bytes(bytes)));
+            print_line(fmt::format("{}: creating a file of {}", path, human_bytes(bytes)));
         }
         create_spectrum_file(path, job, [] { expect_no_stop(" before the file was created"); });
         damaged.emplace();
     }
     return damaged;
+}
+
+void expect_study_output(const std::string& path, FileKind kind, const SoleWriter& writer)
+{
+    const GuardedReading guarded(path, writer.lock());
+    expect_room_for(path, kind);
 }
 
 } // namespace overturn

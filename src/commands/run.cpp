@@ -1,13 +1,13 @@
 // The map of the code: open a session, read the job, open the file, hand out the missing tiles,
 // compute and write each of them.
 #include "commands.hpp"
-#include "complain.hpp"
-#include "job_lines.hpp"
 #include "kernel_choice.hpp"
-#include "output_lines.hpp"
 #include "prepare_output.hpp"
-#include "progress.hpp"
-#include "remarks.hpp"
+#include "report/job.hpp"
+#include "report/json.hpp"
+#include "report/print.hpp"
+#include "report/progress.hpp"
+#include "report/result.hpp"
 
 #include "overturn/farm/farm.hpp"
 #include "overturn/farm/stop_signals.hpp"
@@ -18,8 +18,6 @@
 #include "overturn/problem/problem_bytes.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/text/quoting.hpp"
-
-#include <fmt/chrono.h>
 
 #include <algorithm>
 #include <chrono>
@@ -106,41 +104,7 @@ FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& miss
                     std::chrono::seconds(task.options.patience));
 }
 
-/// The sidecar: what varies from run to run. On rank 0.
-std::string sidecar_of(const Task& task, const FarmReport& report, double seconds)
-{
-    std::vector<std::string> ranks;
-    for (std::size_t rank = 0; rank < report.ranks.size(); ++rank) {
-        const RankShare& share = report.ranks[rank];
-        ranks.push_back(fmt::format(
-            R"(    {{"host": {}, "tiles": {}, "compute_seconds": {}, "write_seconds": {}}})",
-            in_quotes(task.session.hosts()[rank]), share.tiles, share.compute_seconds,
-            share.write_seconds));
-    }
-    const auto start = std::chrono::time_point_cast<std::chrono::seconds>(task.start);
-    return fmt::format(R"({}{},
-  "program_commit": {},
-  "start": "{:%Y-%m-%dT%H:%M:%SZ}",
-  "wall_seconds": {},
-  "kernel": {},
-  "compiler": {},
-  "hdf5": {},
-  "mpi": {},
-  "requests": {},
-  "dealing_seconds": {},
-  "ranks": [
-{}
-  ]
-}}
-)",
-                       sidecar_beginning, in_quotes(program_version()), in_quotes(program_commit()),
-                       fmt::gmtime(start), seconds, in_quotes(name_of(task.kernel)),
-                       in_quotes(compiler_version()), in_quotes(hdf5_version()),
-                       in_quotes(mpi_version()), report.dispatch.requests, report.dispatch.seconds,
-                       fmt::join(ranks, ",\n"));
-}
-
-/// Says how the run ended, and what a reader of the result must know. On rank 0.
+/// Prints how the run ended, and what a reader of the result must know. On rank 0.
 int report_end(const Task& task, const FarmReport& report, double seconds)
 {
     const StoredResult stored(task.path);
@@ -151,13 +115,13 @@ int report_end(const Task& task, const FarmReport& report, double seconds)
                     "lacks {} of {}. Run the same command again to resume.",
                     task.path, missing, stored.tiles().tiles);
     }
-    say(fmt::format("{}: {}", task.path, end_line(task, report, seconds)));
+    print_line(fmt::format("{}: {}", task.path, end_line(task, report, seconds)));
     if (missing > 0) {
-        return complain(stopped_by_signal(
+        return print_error(stopped_by_signal(
             fmt::format("; tiles missing: {} of {}", missing, task.tiling.size())));
     }
     for (const std::string& line : remarks_on(stored)) {
-        say(fmt::format("{}: {}", task.path, line));
+        print_line(fmt::format("{}: {}", task.path, line));
     }
     return exit_code::complete;
 }
@@ -170,10 +134,10 @@ int compute_missing_tiles(const Task& task)
     if (const auto other = rank_with_another_file(path, task.session.communicator())) {
         if (task.leads()) {
             const std::vector<std::string>& hosts = task.session.hosts();
-            complain(Error(exit_code::output,
-                           "\"{}\" is not the same file on rank {} (host {}) as on rank 0 (host "
-                           "{}). Choose a folder with -o that all hosts share.",
-                           path, *other, hosts[std::size_t(*other)], hosts.front()));
+            print_error(Error(exit_code::output,
+                              "\"{}\" is not the same file on rank {} (host {}) as on rank 0 (host "
+                              "{}). Choose a folder with -o that all hosts share.",
+                              path, *other, hosts[std::size_t(*other)], hosts.front()));
         }
         return exit_code::output;
     }
@@ -184,14 +148,15 @@ int compute_missing_tiles(const Task& task)
             file.forget(task.tiling[number]);
         }
         missing = file.missing_tiles();
-        say(start_line(task, task.tiling.size() - std::int64_t(missing.size())));
+        print_line(start_line(task, task.tiling.size() - std::int64_t(missing.size())));
     }
     const FarmReport report = compute_tiles(task, missing, file);
     file.close();
     int code = exit_code::complete;
     if (task.leads()) {
         const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
-        write_sidecar(task.path, sidecar_of(task, report, seconds));
+        write_sidecar(task.path,
+                      sidecar_of(report, task.session.hosts(), task.kernel, task.start, seconds));
         code = report_end(task, report, seconds);
     }
     return task.session.from_rank_0(code);
@@ -225,13 +190,13 @@ int run(const RunOptions& options)
             expect_path_for_mpi(std::filesystem::absolute(path).string());
             sole_writer.emplace(path);
             if (const auto found = prepare_output(*job, path, *sole_writer)) {
-                warn_of_probable_mistakes(*job);
-                std::ranges::for_each(notes_on(*job), say);
+                print_warnings(warnings_on(*job));
+                std::ranges::for_each(notes_on(*job), print_line);
                 damaged = *found;
                 computes = true;
             }
         } catch (const std::exception& error) {
-            code = complain(error);
+            code = print_error(error);
         }
     }
     if (!session.from_rank_0(computes)) {

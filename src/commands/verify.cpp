@@ -1,6 +1,6 @@
 #include "commands.hpp"
 #include "guarded_reading.hpp"
-#include "remarks.hpp"
+#include "report/result.hpp"
 
 #include "overturn/file/stored_result.hpp"
 #include "overturn/text/error.hpp"

@@ -1,4 +1,4 @@
-#include "commands/progress.hpp"
+#include "commands/report/progress.hpp"
 
 #include <gtest/gtest.h>
 

@@ -82,8 +82,8 @@ class TwoSides(Scratch):
                 self.assertEqual(answer["topples"], bool(toppling))
                 self.assertTrue(answer["direction"] in toppling or not toppling)
                 self.assertEqual(answer | answer["by_direction"][0], answer)  # the worse one is first
-                self.assertIn(f" at {pga} g in direction {answer['direction']}, worse than "
-                              f"{180 - answer['direction']}", answer["verdict"])
+                self.assertIn(f" at {pga} g in direction {answer['direction']:.0f}, worse than "
+                              f"{180 - answer['direction']:.0f}", answer["verdict"])
 
     def test_say_which_direction_is_worse_and_write_its_history(self):
         options = [f"--{key.replace('_', '-')}={value}" for key, value in BLOCKS["eccentric"][0].items()]

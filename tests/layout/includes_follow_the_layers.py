@@ -16,7 +16,7 @@ NEIGHBOURS = {"record": set(), "job": {"record"}, "file": {"job"}, "farm": {"job
 # Only these modules may include these headers. Module file opens files on a communicator. Clang 14, which compiles
 # the readers for the fuzz targets, does not compile the views of <ranges>.
 MODULES_OF = {"toml++/": {"job"}, "hdf5": {"file"}, "H5": {"file"}, "mpi.h": {"farm", "file"},
-              "CLI/": {"commands"}, "ranges": {"commands"}, "xsimd/": {"number"}, "pybind11/": {"python"}}
+              "CLI/": {"commands"}, "nlohmann/": {"commands"}, "ranges": {"commands"}, "xsimd/": {"number"}, "pybind11/": {"python"}}
 STREAMS = {"iostream", "fstream", "sstream", "cstdio", "chrono", "ctime"}
 
 

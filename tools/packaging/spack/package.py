@@ -27,6 +27,7 @@ class Overturn(CMakePackage):
     depends_on("tomlplusplus@3.3:")
     depends_on("cli11@2.1:")
     depends_on("fmt@9: +shared")
+    depends_on("nlohmann-json@3.11:")
     depends_on("xsimd@8:")
     depends_on("xxhash")
     depends_on("python@3.11:", when="+python", type=("build", "run"))

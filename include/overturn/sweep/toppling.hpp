@@ -1,9 +1,8 @@
 // Whether one block topples under one motion in one direction, and at which peak accelerations.
 #pragma once
 
-#include "verdict_ranges.hpp"
-
 #include "overturn/problem/problem.hpp"
+#include "overturn/sweep/verdict_ranges.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -43,11 +42,20 @@ struct ToppleAnswer {
     const RestitutionAnswer& requested() const { return by_restitution.front(); }
 };
 
+/// The point of a problem that has a single one.
+Point only_point_of(const Problem& problem);
+
+/// alpha of the block of that point [rad]; nullopt if it has two sides.
+std::optional<double> only_slenderness_of(const Problem& problem);
+
+/// The values of a field of type double at all points, tile by tile, as accurate as possible.
+std::vector<double> accurate_values(Problem problem, Field field);
+
 /// The directions of the motion that are computed [degree]: the given one. Without it the motion as
 /// it stands and, of a block whose sides differ, its mirror image, because either may be worse.
 std::vector<double> directions_of(const Problem& problem);
 
-/// Throws Error if the record has no motion in this direction.
+/// The motion must not be 0 in this direction.
 ToppleAnswer answer_of(const Problem& problem, const ToppleQuestion& question);
 
 /// Whether the answer for one direction of a motion is worse than that for another one: the block

@@ -1,4 +1,4 @@
-#include "remarks.hpp"
+#include "result.hpp"
 
 #include "overturn/text/quoting.hpp"
 

@@ -1,35 +1,28 @@
-// The lines that commands print: messages, rows of a name and a text, and numbers in readable
-// units.
+// What commands print: lines, rows of a name and a text, warnings and errors, and numbers in
+// readable units.
 #pragma once
 
-#include "overturn/problem/quantity.hpp"
+#include "overturn/text/error.hpp"
 #include "overturn/text/motion_words.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdint>
 #include <cstdio>
+#include <exception>
+#include <numbers>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace overturn {
 
 /// Prints a line and flushes it, so that it appears in a log at once, before the progress of a run.
 /// Errors are ignored: a run continues if the reader of its log ends.
-inline void say(const std::string& line)
+inline void print_line(const std::string& line)
 {
     std::puts(line.c_str());
     std::fflush(stdout);
-}
-
-/// The unit of a quantity after a number: begins with a blank, or is empty.
-inline std::string unit_text(const Quantity& quantity)
-{
-    const std::string_view printed = quantity.scope.printed_units;
-    return !printed.empty()          ? fmt::format(" {}", printed)
-           : quantity.units == "1"   ? ""
-           : quantity.units == "s-1" ? " 1/s"
-                                     : fmt::format(" {}", quantity.units);
 }
 
 inline void print_row(std::string_view name, std::string_view text)
@@ -49,6 +42,11 @@ inline void print_axis(std::string_view name, std::int64_t size, double first, d
                           unit, is_share ? ", of the maximum" : ""));
 }
 
+inline double in_degrees(double angle)
+{
+    return angle * 180 / std::numbers::pi;
+}
+
 /// Three digits and a prefix: "640", "1.20 k", "3.00 M", "1.00 G".
 std::string human_count(double count);
 
@@ -60,5 +58,20 @@ std::string human_bytes(double bytes);
 
 /// Prints a row on the motion of a floor; nothing about that of the ground.
 void print_motion_of(std::string_view name, MotionOf motion_of);
+
+/// Prints each as `overturn: warning: text.` to stderr.
+void print_warnings(const std::vector<std::string>& warnings);
+
+/// The exit code of an Error, otherwise exit_code::internal.
+int exit_code_of(const std::exception& error);
+
+/// The message of an exception, safe to print on a terminal.
+std::string message_of(const std::exception& error);
+
+/// Prints `overturn: message` to stderr and returns the exit code.
+int print_error(const std::exception& error);
+
+/// `when` is appended to "stopped by a signal".
+Error stopped_by_signal(const std::string& when);
 
 } // namespace overturn

@@ -1,10 +1,7 @@
-#include "toppling.hpp"
-
-#include "only_point.hpp"
+#include "overturn/sweep/toppling.hpp"
 
 #include "overturn/problem/coordinates.hpp"
-#include "overturn/sweep/kernel.hpp"
-#include "overturn/text/error.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 #include "overturn/text/mapped.hpp"
 
 #include <algorithm>
@@ -137,6 +134,31 @@ std::tuple<int, double, double, double> rank_of(const ToppleAnswer& answer)
 
 } // namespace
 
+Point only_point_of(const Problem& problem)
+{
+    return Coordinates(problem.scene, problem.grid).points().front();
+}
+
+std::optional<double> only_slenderness_of(const Problem& problem)
+{
+    return problem.grid.has_two_sides() ? std::nullopt
+                                        : std::optional(only_point_of(problem).block.slenderness);
+}
+
+std::vector<double> accurate_values(Problem problem, Field field)
+{
+    problem.numerics = most_accurate;
+    problem.fields = {field};
+    const Tiling tiling = tiling_of(problem);
+    std::vector<double> all;
+    for (std::int64_t tile = 0; tile < tiling.size(); ++tile) {
+        const TileFields fields = compute_tile(problem, tiling[tile], widest_kernel());
+        const auto& values = std::get<std::vector<double>>(fields.values[0]);
+        all.insert(all.end(), values.begin(), values.end());
+    }
+    return all;
+}
+
 std::vector<double> directions_of(const Problem& problem)
 {
     if (const Column* given = problem.grid.find("direction")) {
@@ -153,13 +175,6 @@ ToppleAnswer answer_of(const Problem& problem, const ToppleQuestion& question)
     const Point point = only_point_of(problem);
     answer.direction = directions_of(problem).front();
     answer.unit = pga_of_unit(scene, point);
-    if (!(answer.unit > 0)) {
-        throw Error(
-            exit_code::job,
-            "the record has no motion in the direction of {} degrees: its components cancel. "
-            "Choose another --direction.",
-            answer.direction);
-    }
     answer.pga = question.pga.value_or(std::abs(point.amplitude) * answer.unit);
     if (question.has_strength) {
         answer.peak = accurate_values(problem, Field::peak).front();

@@ -1,4 +1,6 @@
-#include "job_lines.hpp"
+#include "job.hpp"
+
+#include "print.hpp"
 
 #include "overturn/job/schema.hpp"
 #include "overturn/mechanics/block.hpp"
@@ -15,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <ranges>
 #include <utility>
@@ -90,32 +91,7 @@ std::vector<std::string> lines_of_equal_records(const Job& job)
     return lines;
 }
 
-} // namespace
-
-std::string block_line(const Job& job)
-{
-    std::string line;
-    if (job.blocks) {
-        line = fmt::format("{} of {}: ", job.blocks->table.rows(), job.blocks->file);
-    }
-    if (job.problem.grid.has_two_sides()) {
-        return line + two_sides_line(job);
-    }
-    const Extent alpha = *extent_of(job, "slenderness");
-    line += "alpha = " + degrees_text(alpha);
-    if (job.blocks) {
-        line += ", r = " + extent_of(job, "restitution")->text("");
-    } else if (const auto least = r_max_of(alpha.last)) {
-        line += ", r_max = " + Extent{*least, largest_restitution(alpha.first)}.text("");
-    }
-    if (const auto size = extent_of(job, "size")) {
-        line += fmt::format(", R = {}, p = {} (g = {} m/s2)", size->text(" m"),
-                            extent_of(job, "frequency_parameter")->text(" 1/s"),
-                            job.problem.scene.gravity);
-    }
-    return line;
-}
-
+/// The friction coefficients that rocking needs.
 std::string contact_line(const Job& job)
 {
     constexpr double large = 0.7;
@@ -165,31 +141,7 @@ std::string ground_line(const Job& job)
     return line;
 }
 
-std::vector<std::string> record_lines(const Job& job)
-{
-    std::vector<std::string> lines;
-    for (const Motion& motion : job.motions) {
-        const Accelerogram& record = *motion.record;
-        const std::string component =
-            (motion.component.empty() ? "" : fmt::format(", component {}", motion.component)) +
-            (motion.second.empty() ? ""
-                                   : fmt::format(", second {} up to {:.3g} g", motion.second,
-                                                 record.in_direction(90).peak())) +
-            (motion.vertical.empty() ? ""
-                                     : fmt::format(", vertical {} up to {:.3g} g", motion.vertical,
-                                                   record.upwards_peak())) +
-            (motion.is_uncorrected ? ", not corrected" : "");
-        lines.push_back(printable(fmt::format("{}{}: {} samples, {:.6g} s, {:.3g} g, {:.3g} m/s",
-                                              motion.file, component, record.samples(),
-                                              double(record.samples() - 1) * record.time_step(),
-                                              motion.measures.pga, motion.measures.pgv)));
-    }
-    shorten(lines);
-    const std::vector<std::string> equal = lines_of_equal_records(job);
-    lines.insert(lines.end(), equal.begin(), equal.end());
-    return lines;
-}
-
+/// A line for each record whose vertical motion cancels gravity at some scale of the job.
 std::vector<std::string> free_fall_lines(const Job& job)
 {
     std::vector<std::string> lines;
@@ -211,6 +163,8 @@ std::vector<std::string> free_fall_lines(const Job& job)
     return lines;
 }
 
+/// The names of the columns of the table of a job that describe nothing of a point; empty if there
+/// are none.
 std::string unused_columns(const Job& job)
 {
     if (!job.blocks) {
@@ -223,18 +177,55 @@ std::string unused_columns(const Job& job)
     return printable(fmt::format("{}", fmt::join(names, ", ")));
 }
 
-std::vector<std::string> notes_on(const Job& job)
+/// The unit of a quantity after a number: begins with a blank, or is empty.
+std::string unit_text(const Quantity& quantity)
 {
-    std::vector<std::string> lines = lines_of_equal_records(job);
-    const std::vector<std::string> free_fall = free_fall_lines(job);
-    lines.insert(lines.end(), free_fall.begin(), free_fall.end());
-    if (const std::string names = unused_columns(job); !names.empty()) {
-        lines.push_back("columns without effect: " + names);
-    }
-    return lines;
+    const std::string_view printed = quantity.scope.printed_units;
+    return !printed.empty()          ? fmt::format(" {}", printed)
+           : quantity.units == "1"   ? ""
+           : quantity.units == "s-1" ? " 1/s"
+                                     : fmt::format(" {}", quantity.units);
 }
 
-namespace {
+void print_pulse(const Scene& scene)
+{
+    print_row("pulse", name_of(scene.pulse));
+    for (const auto& [name, number] : shape_numbers) {
+        if (number == &PulseShape::window && has_window(scene.pulse)) {
+            print_row(name,
+                      fmt::format("-{0} to {0} pulse periods, truncated at {1:.2g} % of the peak",
+                                  scene.shape.window, 100 * cut_by_window(scene)));
+        } else if (has_number(scene.pulse, number)) {
+            print_row(name, fmt::format("{}{}", scene.shape.*number,
+                                        number == &PulseShape::nu ? " rad" : " pulse periods"));
+        }
+    }
+}
+
+void print_scene(const Job& job)
+{
+    for (const std::string& line : record_lines(job)) {
+        print_row("record", line);
+    }
+    const auto& [scene, grid, numerics, product, fields] = job.problem;
+    if (!scene.is_recorded()) {
+        print_pulse(scene);
+    }
+    print_motion_of("motion", scene.motion_of);
+    print_row("theory", name_of(scene.theory));
+    print_row("method",
+              fmt::format("{}, tolerance {}{}", name_of(numerics.method), numerics.tolerance,
+                          numerics.resolve ? ", verdicts resolved" : ""));
+}
+
+void print_coordinates(const Grid& grid)
+{
+    for (const Column* column : grid.outside_table()) {
+        const auto& [quantity, values] = *column;
+        print_axis(quantity->name, values.size(), values.first(), values.last(),
+                   unit_text(*quantity));
+    }
+}
 
 /// How many words of the name of a quantity or of its synonyms begin with four letters that the
 /// column contains, ignoring case.
@@ -281,28 +272,96 @@ std::string_view quantity_meant_by(std::string_view column, const Grid& grid)
 
 } // namespace
 
-std::vector<std::string> remarks_on_records(const Job& job)
+std::string block_line(const Job& job)
 {
-    std::vector<std::string> remarks;
-    for (const Motion& motion : job.motions) {
-        std::ranges::copy_if(motion.remarks, std::back_inserter(remarks),
-                             [&](const auto& remark) { return !is_one_of(remark, remarks); });
+    std::string line;
+    if (job.blocks) {
+        line = fmt::format("{} of {}: ", job.blocks->table.rows(), job.blocks->file);
     }
-    return remarks;
+    if (job.problem.grid.has_two_sides()) {
+        return line + two_sides_line(job);
+    }
+    const Extent alpha = *extent_of(job, "slenderness");
+    line += "alpha = " + degrees_text(alpha);
+    if (job.blocks) {
+        line += ", r = " + extent_of(job, "restitution")->text("");
+    } else if (const auto least = r_max_of(alpha.last)) {
+        line += ", r_max = " + Extent{*least, largest_restitution(alpha.first)}.text("");
+    }
+    if (const auto size = extent_of(job, "size")) {
+        line += fmt::format(", R = {}, p = {} (g = {} m/s2)", size->text(" m"),
+                            extent_of(job, "frequency_parameter")->text(" 1/s"),
+                            job.problem.scene.gravity);
+    }
+    return line;
 }
 
-void warn_of_probable_mistakes(const Job& job)
+std::vector<std::string> record_lines(const Job& job)
 {
-    const auto warn = [](const std::string& text) {
-        std::fflush(stdout);
-        fmt::print(stderr, "overturn: warning: {}.\n", printable(text));
-    };
-    const Grid& grid = job.problem.grid;
-    if (const std::string values = implausible_values(job.problem.scene, grid); !values.empty()) {
-        warn(values);
+    std::vector<std::string> lines;
+    for (const Motion& motion : job.motions) {
+        const Accelerogram& record = *motion.record;
+        const std::string component =
+            (motion.component.empty() ? "" : fmt::format(", component {}", motion.component)) +
+            (motion.second.empty() ? ""
+                                   : fmt::format(", second {} up to {:.3g} g", motion.second,
+                                                 record.in_direction(90).peak())) +
+            (motion.vertical.empty() ? ""
+                                     : fmt::format(", vertical {} up to {:.3g} g", motion.vertical,
+                                                   record.upwards_peak())) +
+            (motion.is_uncorrected ? ", not corrected" : "");
+        lines.push_back(printable(fmt::format("{}{}: {} samples, {:.6g} s, {:.3g} g, {:.3g} m/s",
+                                              motion.file, component, record.samples(),
+                                              double(record.samples() - 1) * record.time_step(),
+                                              motion.measures.pga, motion.measures.pgv)));
     }
-    for (const std::string& remark : remarks_on_records(job)) {
-        warn(remark);
+    shorten(lines);
+    const std::vector<std::string> equal = lines_of_equal_records(job);
+    lines.insert(lines.end(), equal.begin(), equal.end());
+    return lines;
+}
+
+std::vector<std::string> notes_on(const Job& job)
+{
+    std::vector<std::string> lines = lines_of_equal_records(job);
+    const std::vector<std::string> free_fall = free_fall_lines(job);
+    lines.insert(lines.end(), free_fall.begin(), free_fall.end());
+    if (const std::string names = unused_columns(job); !names.empty()) {
+        lines.push_back("columns without effect: " + names);
+    }
+    return lines;
+}
+
+void print_job(const Job& job)
+{
+    if (!job.title.empty()) {
+        fmt::print("{}\n\n", printable(job.title));
+    }
+    print_scene(job);
+    print_coordinates(job.problem.grid);
+    print_row(job.blocks ? "blocks" : "block", block_line(job));
+    if (has_contact_forces(job.problem.scene.theory)) {
+        print_row("contact", contact_line(job));
+    }
+    if (const std::string names = unused_columns(job); !names.empty()) {
+        print_row("columns", names + ": stored, without effect");
+    }
+    print_row(name_of(job.problem.scene.motion_of), ground_line(job));
+    for (const std::string& line : free_fall_lines(job)) {
+        print_row("note", line);
+    }
+}
+
+std::vector<std::string> warnings_on(const Job& job)
+{
+    const Grid& grid = job.problem.grid;
+    std::vector<std::string> warnings;
+    if (std::string values = implausible_values(job.problem.scene, grid); !values.empty()) {
+        warnings.push_back(std::move(values));
+    }
+    for (const Motion& motion : job.motions) {
+        std::ranges::copy_if(motion.remarks, std::back_inserter(warnings),
+                             [&](const auto& remark) { return !is_one_of(remark, warnings); });
     }
     for (const TableColumn& column :
          job.blocks ? job.blocks->table.columns : std::vector<TableColumn>()) {
@@ -310,15 +369,17 @@ void warn_of_probable_mistakes(const Job& job)
             continue;
         }
         if (is_one_of(column.name, keys_of("scene")) || find_quantity(column.name) != nullptr) {
-            warn(fmt::format("the column {} of {} has no effect: it is a key of the job, but not a "
-                             "property of the blocks under this motion",
-                             in_quotes(column.name), job.blocks->file));
+            warnings.push_back(
+                fmt::format("the column {} of {} has no effect: it is a key of the job, but not a "
+                            "property of the blocks under this motion",
+                            in_quotes(column.name), job.blocks->file));
         } else if (const std::string_view meant = quantity_meant_by(column.name, grid);
                    !meant.empty()) {
-            warn(fmt::format("the column {} of {} has no effect (did you mean {}?)",
-                             in_quotes(column.name), job.blocks->file, meant));
+            warnings.push_back(fmt::format("the column {} of {} has no effect (did you mean {}?)",
+                                           in_quotes(column.name), job.blocks->file, meant));
         }
     }
+    return warnings;
 }
 
 } // namespace overturn

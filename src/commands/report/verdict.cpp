@@ -1,6 +1,9 @@
-#include "verdict_text.hpp"
+#include "verdict.hpp"
+
+#include "print.hpp"
 
 #include "overturn/text/mapped.hpp"
+#include "overturn/text/parse_number.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,6 +16,60 @@
 namespace overturn {
 
 namespace {
+
+/// One interval of both; each may be a single acceleration.
+VerdictInterval joined(const VerdictInterval& one, const VerdictInterval& next)
+{
+    const auto width = [](const VerdictInterval& each) { return each.last - each.first; };
+    VerdictInterval both{one.first, next.last};
+    if (width(both) > 0) {
+        both.share = (one.share * width(one) + next.share * width(next)) / width(both);
+    }
+    return both;
+}
+
+/// Rounded outwards; intervals that touch or overlap then are one.
+std::vector<VerdictInterval> rounded(const std::vector<VerdictInterval>& intervals, int decimals)
+{
+    std::vector<VerdictInterval> all;
+    for (VerdictInterval interval : intervals) {
+        interval.first = rounded_down(interval.first, decimals);
+        interval.last = rounded_up(interval.last, decimals);
+        if (!all.empty() && interval.first <= all.back().last) {
+            all.back() = joined(all.back(), interval);
+        } else {
+            all.push_back(interval);
+        }
+    }
+    return all;
+}
+
+/// "above 2.1300 g" if the interval reaches the end of the search, otherwise "1.1110 to 1.6440 g";
+/// "34 % of 1.1110 to 1.6440 g" if only a part of it has the verdict.
+std::string text_of(const VerdictInterval& interval, int decimals, double end_of_search)
+{
+    constexpr double whole = 0.995; // rounded to per cent
+    const auto& [first, last, share] = interval;
+    const bool is_whole = share >= whole;
+    if (is_whole && last >= end_of_search) {
+        return fmt::format("above {:.{}f} g", first, decimals);
+    }
+    if (first == last) {
+        return fmt::format("{:.{}f} g", first, decimals);
+    }
+    return fmt::format("{}{:.{}f} to {:.{}f} g",
+                       is_whole ? "" : fmt::format("{:.0f} % of ", std::max(100 * share, 1.0)),
+                       first, decimals, last, decimals);
+}
+
+std::string list_of(const std::vector<VerdictInterval>& intervals, int decimals,
+                    double end_of_search)
+{
+    const auto texts = mapped(rounded(intervals, decimals), [&](const VerdictInterval& each) {
+        return text_of(each, decimals, end_of_search);
+    });
+    return fmt::format("{}", fmt::join(texts, ", "));
+}
 
 /// In the order of the enumerators of Verdict.
 constexpr std::array<std::string_view, 3> verdict_texts{"does not topple", "topples", "undecided"};
@@ -139,6 +196,77 @@ std::string text_of_worst_restitution(const ToppleAnswer& answer, const Asked& a
 
 } // namespace
 
+double rounded_down(double value, int decimals)
+{
+    const auto nearest_to = [&](double number) {
+        return parse_number(fmt::format("{:.{}f}", number, decimals)).value;
+    };
+    const double nearest = nearest_to(value);
+    return nearest <= value ? nearest : nearest_to(nearest - std::pow(10, -decimals));
+}
+
+std::vector<VerdictInterval> intervals_of(const VerdictRanges& ranges, Verdict verdict,
+                                          std::size_t most)
+{
+    std::vector<VerdictInterval> shown =
+        mapped(ranges.with(verdict), [](const VerdictRange& range) {
+            return VerdictInterval{range.first, range.last};
+        });
+    const bool reaches_end = !shown.empty() && shown.back().last == ranges.end_of_search();
+    const auto gap_after = [&](std::size_t i) { return shown[i + 1].first / shown[i].last; };
+    while (shown.size() > most) {
+        std::size_t closest = 0;
+        for (std::size_t i = 1; i + 1 + std::size_t(reaches_end) < shown.size(); ++i) {
+            closest = gap_after(i) < gap_after(closest) ? i : closest;
+        }
+        shown[closest] = joined(shown[closest], shown[closest + 1]);
+        shown.erase(shown.begin() + std::ptrdiff_t(closest) + 1);
+    }
+    return shown;
+}
+
+std::string text_of(const VerdictRanges& ranges, int decimals, std::size_t most)
+{
+    const double end = ranges.end_of_search();
+    std::string text = list_of(intervals_of(ranges, Verdict::topples, most), decimals, end);
+    const std::string undecided =
+        list_of(intervals_of(ranges, Verdict::undecided, most), decimals, end);
+    text = text.empty() ? "none" : text;
+    text += undecided.empty() ? "" : "; undecided: " + undecided;
+    text += fmt::format(", searched up to {} g", rounded_down(end, 6));
+    if (const auto& coarse = ranges.coarse) {
+        text += fmt::format(", from {:.{}f} to {:.{}f} g only in steps of up to {:.2g} %",
+                            rounded_down(coarse->first, decimals), decimals,
+                            rounded_up(coarse->last, decimals), decimals, 100 * coarse->step);
+    }
+    return text;
+}
+
+int decimals_of(const VerdictRanges& ranges, double pga)
+{
+    constexpr int most_for_ends = 7; // narrow ranges would need more
+    std::vector<double> ends;
+    for (const Verdict verdict : {Verdict::topples, Verdict::undecided}) {
+        for (const VerdictInterval& interval : intervals_of(ranges, verdict)) {
+            ends.insert(ends.end(), {interval.first, interval.last});
+        }
+    }
+    std::ranges::sort(ends);
+    int decimals = 4;
+    const auto look_the_same = [&](double a, double b) {
+        return a != b && rounded_down(a, decimals) == rounded_down(b, decimals);
+    };
+    const auto are_unclear = [&] {
+        return std::ranges::any_of(ends, [&](double end) { return look_the_same(end, pga); }) ||
+               (decimals < most_for_ends &&
+                std::ranges::adjacent_find(ends, look_the_same) != ends.end());
+    };
+    while (decimals < std::numeric_limits<double>::digits10 && are_unclear()) {
+        ++decimals;
+    }
+    return decimals;
+}
+
 std::string verdict_sentence(const ToppleAnswer& answer, const std::optional<double>& scale,
                              std::string_view place)
 {
@@ -147,8 +275,8 @@ std::string verdict_sentence(const ToppleAnswer& answer, const std::optional<dou
     std::string text =
         fmt::format("{} at {} {}", text_of(*answer.verdict), asked.value, asked.unit_text());
     if (is_scale) {
-        text +=
-            fmt::format(", {:.{}f} g", answer.pga, answer.requested().ranges.decimals(answer.pga));
+        text += fmt::format(", {:.{}f} g", answer.pga,
+                            decimals_of(answer.requested().ranges, answer.pga));
     }
     text += place;
     if (answer.verdict == Verdict::topples) {
@@ -158,6 +286,17 @@ std::string verdict_sentence(const ToppleAnswer& answer, const std::optional<dou
     return text + text_of_nearest(answer, asked) +
            (is_end ? "; larger accelerations are not searched" : "") +
            text_of_worst_restitution(answer, asked);
+}
+
+std::string peak_text(double peak, const Problem& problem)
+{
+    const auto slenderness = only_slenderness_of(problem);
+    return std::isnan(peak)   ? "undecided"
+           : std::isinf(peak) ? "the block overturns"
+           : peak == 0        ? "0: the block is not lifted and stays at rest"
+           : slenderness      ? fmt::format("{:.4g} degrees, {:.3g} % of alpha",
+                                            in_degrees(peak * *slenderness), 100 * peak)
+                              : fmt::format("{:.3g} % of alpha of its side", 100 * peak);
 }
 
 } // namespace overturn

@@ -1,6 +1,6 @@
 #include "progress.hpp"
 
-#include "output_lines.hpp"
+#include "print.hpp"
 
 #include <fmt/format.h>
 

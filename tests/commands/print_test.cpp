@@ -1,4 +1,4 @@
-#include "commands/output_lines.hpp"
+#include "commands/report/print.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include <gtest/gtest.h>

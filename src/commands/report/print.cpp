@@ -1,6 +1,9 @@
-#include "output_lines.hpp"
+#include "print.hpp"
+
+#include "overturn/text/quoting.hpp"
 
 #include <cmath>
+#include <new>
 #include <utility>
 
 namespace overturn {
@@ -57,6 +60,42 @@ std::string human_duration(double seconds)
 std::string human_bytes(double bytes)
 {
     return human_count(bytes) + (bytes < least_scaled ? " bytes" : "B");
+}
+
+void print_warnings(const std::vector<std::string>& warnings)
+{
+    std::fflush(stdout);
+    for (const std::string& warning : warnings) {
+        fmt::print(stderr, "overturn: warning: {}.\n", printable(warning));
+    }
+}
+
+int exit_code_of(const std::exception& error)
+{
+    const auto* of_user = dynamic_cast<const Error*>(&error);
+    return of_user != nullptr ? of_user->code() : exit_code::internal;
+}
+
+std::string message_of(const std::exception& error)
+{
+    if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
+        return "out of memory. Each rank stores the values of the axes, and rank 0 a few bytes for "
+               "each tile. Give the axes fewer points, or use a machine with more memory.";
+    }
+    return printable(error.what());
+}
+
+int print_error(const std::exception& error)
+{
+    std::fflush(stdout);
+    std::fprintf(stderr, "overturn: %s\n", message_of(error).c_str());
+    return exit_code_of(error);
+}
+
+Error stopped_by_signal(const std::string& when)
+{
+    return {exit_code::stopped,
+            "stopped by a signal" + when + ". Run the same command again to resume."};
 }
 
 } // namespace overturn

@@ -1,0 +1,184 @@
+#include "answer.hpp"
+
+#include "job.hpp"
+#include "print.hpp"
+#include "verdict.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace overturn {
+
+namespace {
+
+/// Such as "0.46 at 0.9034 g, 0.65 at 2.1296 g".
+std::string friction_to_topple_text(const ToppleAnswer& answer, int decimals)
+{
+    constexpr std::size_t most = 3;
+    const auto toppling = answer.requested().ranges.with(Verdict::topples);
+    std::vector<std::string> list;
+    for (std::size_t i = 0; i < std::min(most, toppling.size()); ++i) {
+        const double friction = answer.friction_to_topple[i];
+        list.push_back(fmt::format("{} at {:.{}f} g",
+                                   std::isnan(friction) ? "unknown"
+                                   : std::isinf(friction)
+                                       ? "infinite"
+                                       : fmt::format("{:.2f}", rounded_up(friction, 2)),
+                                   rounded_down(toppling[i].first, decimals), decimals));
+    }
+    return fmt::format("{}{}", fmt::join(list, ", "),
+                       toppling.size() > most ? ", and so on (see --json)" : "");
+}
+
+std::string friction_text(double friction)
+{
+    return std::isnan(friction) ? "unknown"
+           : std::isinf(friction)
+               ? "the block would leave the ground, so that the verdict is doubtful"
+               : fmt::format("the verdict holds if the coefficient is at least {:.2f}",
+                             rounded_up(friction, 2));
+}
+
+/// The numbers that complete a pulse, each with its name.
+std::string shape_text(const Scene& scene)
+{
+    std::string text;
+    for (const auto& [name, number] : shape_numbers) {
+        if (has_number(scene.pulse, number)) {
+            text += fmt::format(", {} {}", name, scene.shape.*number);
+        }
+    }
+    return text;
+}
+
+/// Dimensions that the command line gives, such as "0.55 m x 2.1 m, height of the centre of mass 1
+/// m, ".
+std::string dimensions_text(const std::map<std::string, double>& given)
+{
+    std::string text;
+    if (given.contains("width") && given.contains("height")) {
+        text = fmt::format("{} m x {} m, ", given.at("width"), given.at("height"));
+    }
+    for (const char* name : {"center_height", "center_offset", "radius_of_gyration"}) {
+        if (given.contains(name)) {
+            text += fmt::format("{} {} m, ", quantity(name).long_name, given.at(name));
+        }
+    }
+    return text;
+}
+
+void print_question(const std::vector<DirectedAnswer>& all, const ToppleOptions& options)
+{
+    const Job& job = all.front().job;
+    const Scene& scene = job.problem.scene;
+    print_row("block", dimensions_text(options.block) + block_line(job));
+    const std::string motion = scene.is_recorded()
+                                   ? record_lines(job).front()
+                                   : fmt::format("{}, period {} s{}", name_of(scene.pulse),
+                                                 *options.period, shape_text(scene));
+    std::string direction;
+    if (all.size() > 1) {
+        direction = "; directions 0 and 180 degrees, its mirror image";
+    } else if (options.direction) {
+        direction = fmt::format("; direction {} degrees", *options.direction);
+    }
+    if (scene.has_two_components()) {
+        direction += fmt::format(", {:.3g} g", all.front().answer.unit);
+    }
+    print_row("motion", motion + direction);
+    print_motion_of("", scene.motion_of);
+    if (scene.theory != Scene().theory) {
+        print_row("theory", name_of(scene.theory));
+    }
+    const RestitutionAnswer& requested = all.front().answer.requested();
+    print_row(
+        "restitution",
+        std::isnan(requested.share)
+            ? fmt::format("r = {:.4g}; r_max is not defined for so wide a block", requested.ratio)
+        : requested.share == 1
+            ? fmt::format("r = r_max = {:.4g}", requested.ratio)
+            : fmt::format("r = {:.4g} = {:.4g} r_max", requested.ratio, requested.share));
+}
+
+void print_ranges(const Scene& scene, const ToppleAnswer& answer)
+{
+    const VerdictRanges& requested = answer.requested().ranges;
+    const int decimals = decimals_of(requested, answer.pga);
+    print_row("lifts from", fmt::format("{:.4f} g", rounded_down(answer.lifting_pga, 4)));
+    print_row("topples", text_of(requested, decimals) +
+                             (requested.ends_in_free_fall
+                                  ? fmt::format("; at {:.6g} g the vertical motion cancels gravity",
+                                                requested.end_of_search())
+                                  : ""));
+    if (!answer.friction_to_topple.empty()) {
+        print_row("",
+                  "friction coefficient to topple: " + friction_to_topple_text(answer, decimals));
+    }
+    if (answer.by_restitution.size() > 1) {
+        fmt::print("\n{:>8}{:>9}   {}\n", "r/r_max", "r",
+                   scene.worded("topples at a peak ground acceleration of"));
+    }
+    for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
+        const RestitutionAnswer& other = answer.by_restitution[i];
+        fmt::print("{:>8.2f}{:>9.4f}   {}\n", other.share, other.ratio,
+                   text_of(other.ranges, decimals_of(other.ranges, answer.pga)));
+    }
+}
+
+} // namespace
+
+std::vector<std::string> verdict_sentences(const std::vector<DirectedAnswer>& all,
+                                           const ToppleOptions& options)
+{
+    std::vector<std::string> sentences;
+    for (const auto& [job, history, answer] : all) {
+        std::string place;
+        if (all.size() > 1) {
+            place = fmt::format(" in direction {}", answer.direction);
+            place += sentences.empty() ? fmt::format(", worse than {}", all.back().answer.direction)
+                                       : "";
+        }
+        if (answer.verdict) {
+            sentences.push_back(verdict_sentence(answer, options.scale, place));
+        }
+    }
+    return sentences;
+}
+
+void print_answer(const std::vector<DirectedAnswer>& all, const ToppleOptions& options)
+{
+    print_question(all, options);
+    std::string_view name = "verdict";
+    for (const std::string& sentence : verdict_sentences(all, options)) {
+        print_row(name, sentence);
+        name = "";
+    }
+    for (const auto& [job, history, answer] : all) {
+        if (all.size() > 1) {
+            fmt::print("\n");
+            print_row("direction", fmt::format("{} degrees", answer.direction));
+        }
+        if (answer.verdict) {
+            print_row("peak tilt", peak_text(answer.peak, job.problem));
+        }
+        if (answer.friction) {
+            print_row("friction", job.problem.scene.worded(friction_text(*answer.friction)));
+        }
+        print_ranges(job.problem.scene, answer);
+    }
+    if (all.front().job.problem.scene.is_recorded()) {
+        double undecided = 0;
+        for (const auto& [job, history, answer] : all) {
+            undecided = std::max(undecided, undecided_share(answer));
+        }
+        fmt::print("\nUnder a record, ranges narrower than the steps of {:.1g} % may be missed. {} "
+                   "of the searched accelerations {} undecided.\n",
+                   100 * toppling_step,
+                   undecided > 0 ? fmt::format("Up to {:.2g} %", 100 * undecided) : "None",
+                   undecided > 0 ? "are" : "is");
+    }
+}
+
+} // namespace overturn

@@ -1,0 +1,198 @@
+#include "json.hpp"
+
+#include "job.hpp"
+#include "print.hpp"
+#include "verdict.hpp"
+
+#include "overturn/file/provenance.hpp"
+
+#include <fmt/chrono.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace overturn {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Invalid UTF-8, as in names of files, is replaced.
+std::string text_of(const Json& json)
+{
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json if_known(const std::optional<double>& value)
+{
+    return value ? Json(*value) : Json();
+}
+
+Json if_named(const std::string& name)
+{
+    return name.empty() ? Json() : Json(name);
+}
+
+/// The ranges of a verdict. Toppling may go on at the end of the search, where null stands.
+Json ranges_with(const VerdictRanges& ranges, Verdict verdict)
+{
+    Json list = Json::array();
+    for (const VerdictRange& range : ranges.with(verdict)) {
+        const bool may_go_on = verdict == Verdict::topples && range.last == ranges.end_of_search();
+        list.push_back({range.first, may_go_on ? Json() : Json(range.last)});
+    }
+    return list;
+}
+
+/// The toppling ranges as in the text, not rounded.
+Json toppling_intervals(const VerdictRanges& ranges)
+{
+    Json list = Json::array();
+    for (const auto& [first, last, share] : intervals_of(ranges, Verdict::topples)) {
+        Json interval;
+        interval["first"] = first;
+        interval["last"] = last == ranges.end_of_search() ? Json() : Json(last); // it may go on
+        interval["share"] = share;
+        list.push_back(std::move(interval));
+    }
+    return list;
+}
+
+/// Adds the answer for a restitution. pga: the asked acceleration, if any.
+void add(Json& members, const RestitutionAnswer& answer, const std::optional<double>& pga)
+{
+    const VerdictRanges& ranges = answer.ranges;
+    members["restitution"] = answer.ratio;
+    members["restitution_of_maximum"] = answer.share;
+    members["toppling_pga_below"] =
+        pga ? if_known(ranges.nearest_below(Verdict::topples, *pga)) : Json();
+    members["toppling_pga_above"] =
+        pga ? if_known(ranges.nearest_above(Verdict::topples, *pga)) : Json();
+    members["toppling_pga"] = ranges_with(ranges, Verdict::topples);
+    members["safe_pga"] = ranges_with(ranges, Verdict::safe);
+    members["undecided_pga"] = ranges_with(ranges, Verdict::undecided);
+    members["toppling_intervals"] = toppling_intervals(ranges);
+    members["undecided_share"] = ranges.undecided_share();
+    members["end_of_search"] = ranges.end_of_search();
+    Json& coarse = members["coarse_search"];
+    if (ranges.coarse) {
+        coarse["first"] = ranges.coarse->first;
+        coarse["last"] = ranges.coarse->last;
+        coarse["step"] = ranges.coarse->step;
+    }
+}
+
+/// Adds what depends on the direction. verdict: the sentence, if a strength is asked for.
+void add(Json& members, const DirectedAnswer& directed, const std::string* verdict)
+{
+    const auto& [job, history, answer] = directed;
+    const auto alpha = only_slenderness_of(job.problem);
+    const auto pga = verdict != nullptr ? std::optional(answer.pga) : std::nullopt;
+    members["direction"] = answer.direction;
+    members["verdict"] = pga ? Json(*verdict) : Json();
+    members["topples"] = answer.verdict == Verdict::topples ? Json(true)
+                         : answer.verdict == Verdict::safe  ? Json(false)
+                                                            : Json();
+    members["pga"] = if_known(pga);
+    members["peak_of_alpha"] = pga ? Json(answer.peak) : Json();
+    members["peak_degrees"] = pga && alpha ? Json(in_degrees(answer.peak * *alpha)) : Json();
+    members["friction"] = if_known(answer.friction);
+    members["lifts_off"] = answer.friction && std::isinf(*answer.friction);
+    members["friction_to_topple"] = answer.friction_to_topple;
+    members["lifting_pga"] = answer.lifting_pga;
+    add(members, answer.requested(), pga);
+    Json& others = members["by_restitution"] = Json::array();
+    for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
+        add(others.emplace_back(), answer.by_restitution[i], pga);
+    }
+}
+
+Json motion_of(const Job& job, const ToppleOptions& options)
+{
+    Json json;
+    if (job.motions.empty()) {
+        const Scene& scene = job.problem.scene;
+        json["pulse"] = name_of(scene.pulse);
+        json["period"] = *options.period;
+        for (const auto& [name, number] : shape_numbers) {
+            if (has_number(scene.pulse, number)) {
+                json[name.data()] = scene.shape.*number;
+            }
+        }
+    } else {
+        const Motion& motion = job.motions.front();
+        json["record"] = motion.file;
+        json["component"] = motion.component;
+        json["second_component"] = if_named(motion.second);
+        json["vertical"] = if_named(motion.vertical);
+        json["uncorrected"] = motion.is_uncorrected;
+    }
+    return json;
+}
+
+/// The block and its motion, whatever the direction.
+Json members_of(const Job& job, const ToppleOptions& options)
+{
+    const Scene& scene = job.problem.scene;
+    Json members;
+    members["block"] = options.block;
+    members["motion"] = motion_of(job, options);
+    members["motion_of"] = name_of(scene.motion_of);
+    members["theory"] = name_of(scene.theory);
+    members["gravity"] = scene.gravity;
+    std::vector<const char*> names{"slenderness", "frequency_parameter"};
+    if (!only_slenderness_of(job.problem)) {
+        names = {"slenderness_plus", "slenderness_minus", "frequency_parameter",
+                 "frequency_parameter_minus", "incline"};
+    }
+    for (const char* name : names) {
+        members[name] = extent_of(job, name)->first;
+    }
+    members["pga_max"] = options.pga_max;
+    members["narrower_ranges_exist"] = scene.is_recorded() ? Json(true) : Json();
+    members["warnings"] = warnings_on(job);
+    return members;
+}
+
+} // namespace
+
+std::string json_of(const std::vector<DirectedAnswer>& all, const ToppleOptions& options)
+{
+    const std::vector<std::string> verdicts = verdict_sentences(all, options);
+    const auto verdict = [&](std::size_t i) { return verdicts.empty() ? nullptr : &verdicts[i]; };
+    Json members = members_of(all.front().job, options);
+    add(members, all.front(), verdict(0));
+    Json& directions = members["by_direction"];
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        add(directions.emplace_back(), all[i], verdict(i));
+    }
+    return text_of(members);
+}
+
+std::string sidecar_of(const FarmReport& report, const std::vector<std::string>& hosts,
+                       Kernel kernel, std::chrono::system_clock::time_point start, double seconds)
+{
+    const auto start_second = std::chrono::time_point_cast<std::chrono::seconds>(start);
+    Json sidecar;
+    sidecar["program_version"] = program_version();
+    sidecar["program_commit"] = program_commit();
+    sidecar["start"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(start_second));
+    sidecar["wall_seconds"] = seconds;
+    sidecar["kernel"] = name_of(kernel);
+    sidecar["compiler"] = compiler_version();
+    sidecar["hdf5"] = hdf5_version();
+    sidecar["mpi"] = mpi_version();
+    sidecar["requests"] = report.dispatch.requests;
+    sidecar["dealing_seconds"] = report.dispatch.seconds;
+    for (std::size_t rank = 0; rank < report.ranks.size(); ++rank) {
+        const RankShare& share = report.ranks[rank];
+        Json& json = sidecar["ranks"].emplace_back();
+        json["host"] = hosts[rank];
+        json["tiles"] = share.tiles;
+        json["compute_seconds"] = share.compute_seconds;
+        json["write_seconds"] = share.write_seconds;
+    }
+    return text_of(sidecar);
+}
+
+} // namespace overturn

@@ -1,0 +1,181 @@
+#include "overturn/sweep/verdict_ranges.hpp"
+
+#include "overturn/problem/axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace overturn {
+
+namespace {
+
+/// Bounds the time of an answer if a slow pulse has hundreds of flips. A line of usual pulses needs
+/// a thousand amplitudes, none of them in 50 digits, in which one may take a second.
+constexpr std::size_t most_amplitudes = 2500;
+constexpr int most_in_50_digits = 4;
+
+FlipSearch search_in(const Scene& scene, const DropRequested& drop_requested)
+{
+    FlipSearch search = flip_search(scene);
+    search.drop_requested = drop_requested;
+    if (scene.is_recorded()) {
+        // Above every step of the scan, which is therefore not divided.
+        search.finest_step = 2 * toppling_step;
+        search.most_in_50_digits = 0;
+    } else {
+        search.most_amplitudes = most_amplitudes;
+        search.most_in_50_digits = most_in_50_digits;
+    }
+    return search;
+}
+
+/// Also the included acceleration, and under a record those next to it, in small steps: the nearest
+/// toppling range may be narrower than the steps of the scan.
+std::vector<double> with_neighbours(std::vector<double> scan, double included, const Scene& scene)
+{
+    constexpr int neighbours = 20; // on each side
+    constexpr double step = 0.001; // over the acceleration
+    const int most = scene.is_recorded() ? neighbours : 0;
+    const double first = scan.front();
+    const double last = scan.back();
+    for (int i = -most; i <= most; ++i) {
+        const double acceleration = included * (1 + i * step);
+        if (first < acceleration && acceleration < last) {
+            scan.push_back(acceleration);
+        }
+    }
+    std::ranges::sort(scan);
+    const auto [begin, end] = std::ranges::unique(scan);
+    scan.erase(begin, end);
+    return scan;
+}
+
+} // namespace
+
+Verdict verdict_of(Region region)
+{
+    return is_safe(region)     ? Verdict::safe
+           : is_unsafe(region) ? Verdict::topples
+                               : Verdict::undecided;
+}
+
+/// Under a pulse, steps of 0.1 times the acceleration that lifts the block find the flips, see
+/// docs/boundaries.md, but for narrow strips just above it, which slow pulses cause: there the
+/// steps are 200 times smaller.
+std::vector<double> scanned_accelerations(const Scene& scene, double first, double last)
+{
+    const auto values = [](double from, double to, double steps, Spacing spacing) {
+        return Axis(AxisRange{from, to, 1 + std::int64_t(std::ceil(steps)), spacing}).values();
+    };
+    if (scene.is_recorded()) {
+        return values(first, last, std::max(std::log(last / first) / toppling_step, 10.0),
+                      Spacing::log);
+    }
+    const double low = std::min(1.3 * first, last);
+    std::vector<double> all =
+        values(first, low, std::max((low - first) / (0.0005 * first), 10.0), Spacing::linear);
+    if (low < last) {
+        const std::vector<double> rest = values(
+            low, last, std::clamp((last - low) / (0.1 * first), 10.0, 2000.0), Spacing::linear);
+        all.insert(all.end(), rest.begin() + 1, rest.end());
+    }
+    return all;
+}
+
+VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, double lifting,
+                             double end, double included, const DropRequested& drop_requested)
+{
+    VerdictRanges ranges;
+    ranges.lifting = lifting;
+    if (scene.is_recorded()) {
+        const double free_fall =
+            scene.records[std::size_t(line.point.record)]->free_fall_scale() * std::abs(line.unit);
+        // Just below, by more than the roundings of a scale.
+        const double last = free_fall * (1 - 4 * std::numeric_limits<double>::epsilon());
+        ranges.ends_in_free_fall = last < end;
+        end = std::min(end, last);
+    }
+    if (!(lifting < end)) {
+        ranges.all.push_back({0, end, Verdict::safe});
+        return ranges;
+    }
+    const std::vector<double> accelerations =
+        with_neighbours(scanned_accelerations(scene, lifting, end), included, scene);
+    const Boundary boundary =
+        boundary_on(scene, line, accelerations, widest_kernel(), search_in(scene, drop_requested));
+    ranges.coarse = boundary.coarse;
+    ranges.all.push_back({0, lifting, Verdict::safe});
+    const auto end_last_range_at = [&](double last) {
+        ranges.all.back().last = last;
+        // A single safe acceleration does not separate undecided ones.
+        if (ranges.all.back().first == last && ranges.all.back().verdict == Verdict::safe) {
+            ranges.all.pop_back();
+            ranges.all.back().last = last;
+        }
+    };
+    const auto continue_with = [&](Region region, double from) {
+        end_last_range_at(from);
+        if (const Verdict verdict = verdict_of(region); ranges.all.back().verdict != verdict) {
+            ranges.all.push_back({from, from, verdict});
+        }
+    };
+    continue_with(boundary.region_at_first, lifting);
+    for (const Flip& flip : boundary.flips) { // a flip has a width: safe ranges end before it
+        continue_with(flip.region_above, is_safe(flip.region_below) ? flip.below : flip.above);
+    }
+    end_last_range_at(end);
+    return ranges;
+}
+
+std::vector<VerdictRange> VerdictRanges::with(Verdict verdict) const
+{
+    std::vector<VerdictRange> ranges = all;
+    std::erase_if(ranges, [&](const VerdictRange& each) { return each.verdict != verdict; });
+    return ranges;
+}
+
+double VerdictRanges::undecided_share() const
+{
+    double undecided = 0;
+    for (const VerdictRange& range : with(Verdict::undecided)) {
+        undecided += range.last - range.first;
+    }
+    return undecided > 0 ? undecided / (end_of_search() - lifting) : 0;
+}
+
+Verdict VerdictRanges::verdict_at(double pga) const
+{
+    for (const Verdict verdict : {Verdict::topples, Verdict::undecided}) {
+        const bool has_it = std::ranges::any_of(with(verdict), [&](const VerdictRange& range) {
+            return range.first <= pga && pga <= range.last;
+        });
+        if (has_it) {
+            return verdict;
+        }
+    }
+    return Verdict::safe;
+}
+
+std::optional<double> VerdictRanges::nearest_below(Verdict verdict, double pga) const
+{
+    std::optional<double> nearest;
+    for (const VerdictRange& range : with(verdict)) {
+        if (range.first < pga) {
+            nearest = std::min(range.last, pga);
+        }
+    }
+    return nearest;
+}
+
+std::optional<double> VerdictRanges::nearest_above(Verdict verdict, double pga) const
+{
+    for (const VerdictRange& range : with(verdict)) {
+        if (range.last > pga) {
+            return std::max(range.first, pga);
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace overturn
