@@ -3,9 +3,7 @@
 #include <charconv>
 
 #ifndef __cpp_lib_to_chars // libc++ converts no floating-point numbers
-#include <boost/algorithm/string/predicate.hpp>
-
-#include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <locale.h>
 #include <stdlib.h>
@@ -29,52 +27,21 @@ ParsedNumber parse_unsigned_or_negative(std::string_view text)
 
 #else
 
-/// The number of digits that a text begins with.
-std::size_t digits_of(std::string_view text)
-{
-    return std::min(text.find_first_not_of("0123456789"), text.size());
-}
-
-/// The length of the number that a text begins with, as for std::from_chars.
-std::size_t length_of_number(std::string_view text)
-{
-    const std::size_t sign = text.starts_with('-') ? 1 : 0;
-    const std::string_view rest = text.substr(sign);
-    for (const std::string_view name : {"infinity", "inf", "nan"}) {
-        if (boost::algorithm::istarts_with(rest, name)) {
-            return sign + name.size();
-        }
-    }
-    std::size_t end = digits_of(rest);
-    std::size_t digits = end;
-    if (rest.substr(end).starts_with('.')) {
-        digits += digits_of(rest.substr(end + 1));
-        end += 1 + digits_of(rest.substr(end + 1));
-    }
-    if (digits == 0) {
-        return 0;
-    }
-    if (const std::string_view tail = rest.substr(end); !tail.empty() && (tail[0] | 32) == 'e') {
-        const std::size_t before = tail.size() > 1 && (tail[1] == '+' || tail[1] == '-') ? 2 : 1;
-        const std::size_t exponent = digits_of(tail.substr(std::min(before, tail.size())));
-        end += exponent > 0 ? before + exponent : 0;
-    }
-    return sign + end;
-}
-
 ParsedNumber parse_unsigned_or_negative(std::string_view text)
 {
     static const locale_t of_c = newlocale(LC_ALL_MASK, "C", locale_t());
-    const std::size_t length = length_of_number(text);
-    const std::string word(text.substr(0, length));
-    const double value = strtod_l(word.c_str(), nullptr, of_c);
-    const std::size_t mantissa = std::min(word.find_first_of("eE"), word.size());
-    const bool is_name = word.find_first_of("iInN") != word.npos;
-    const bool is_zero = word.substr(0, mantissa).find_first_of("123456789") == word.npos;
-    if (is_name || (std::isfinite(value) && (value != 0 || is_zero))) {
-        return {value, length};
+    // Without blanks before it, hexadecimal digits, and the parentheses that may follow nan.
+    const std::string word(text.substr(0, text.find_first_not_of("+-.0123456789AEFINTYaefinty")));
+    if (word.starts_with('+')) {
+        return {};
     }
-    return {0, length, std::errc::result_out_of_range};
+    char* end = nullptr;
+    errno = 0;
+    const double value = strtod_l(word.c_str(), &end, of_c);
+    // It may also report numbers that are subnormal.
+    const bool is_in_range = errno != ERANGE || (std::isfinite(value) && value != 0);
+    return {is_in_range ? value : 0, std::size_t(end - word.c_str()),
+            is_in_range ? std::errc() : std::errc::result_out_of_range};
 }
 
 #endif
