@@ -136,13 +136,9 @@ RecordFile read_at2(Lines lines, const RecordOptions& options)
         .unit = stated ? *stated : *options.unit,
         .time_step = sampling.time_step,
         .header = kept_lines(before, header_lines)};
-    component.remarks = compare({{Stated::duration, times, "DURATION", sampling.duration},
-                                 peak_after(title, "peak", "the peak")},
-                                {.lines = times,
-                                 .values = component.acceleration,
-                                 .unit = component.unit,
-                                 .time_step = sampling.time_step,
-                                 .rounding = sampling.rounding});
+    compare({{Stated::duration, times, "DURATION", sampling.duration},
+             peak_after(title, "peak", "the peak")},
+            component, times, sampling.rounding);
     return {.format = "AT2", .components = {std::move(component)}, .has_given_unit = !stated};
 }
 

@@ -105,11 +105,7 @@ RecordComponent take_channel(Lines& lines)
     std::vector<StatedNumber> stated;
     add_numbers_of_text(before, announcing, stated);
     add_numbers_of_columns(before, announcing, stated);
-    component.remarks = compare(stated, {.lines = announcing,
-                                         .values = component.acceleration,
-                                         .unit = component.unit,
-                                         .time_step = component.time_step,
-                                         .rounding = rounding_of(step)});
+    compare(stated, component, announcing, rounding_of(step));
     for (Lines ahead = lines; next_text(ahead) && contains(ahead.line(), marks_values);) {
         take_announced(ahead, "velocity or displacement", usual_columns);
         lines = ahead;

@@ -56,19 +56,13 @@ RecordFile read_esm(Lines lines, const RecordOptions&)
     const KeyedHeader::Entry step = header.required("SAMPLING_INTERVAL_S:");
     const double time_step = time_step_of(step.lines, step.value);
     const auto stream = header.find("STREAM:");
-    const bool is_raw = is_uncorrected(header);
     RecordComponent component{.name = std::string(stream ? stream->value : ""),
                               .acceleration = take_free_numbers(lines, announced),
                               .unit = unit,
                               .time_step = time_step,
-                              .is_uncorrected = is_raw,
+                              .is_uncorrected = is_uncorrected(header),
                               .header = header.kept()};
-    component.remarks = compare(stated_numbers(header), {.lines = lines,
-                                                         .values = component.acceleration,
-                                                         .unit = unit,
-                                                         .time_step = time_step,
-                                                         .rounding = rounding_of(step.value),
-                                                         .may_have_offset = is_raw});
+    compare(stated_numbers(header), component, lines, rounding_of(step.value));
     return {.format = "ESM", .components = {std::move(component)}};
 }
 

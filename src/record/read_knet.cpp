@@ -98,11 +98,7 @@ RecordFile read_knet(Lines lines, const RecordOptions&)
         .time_step = 1 / rate,
         .is_uncorrected = true,
         .header = header.kept()};
-    component.remarks = compare(stated_peak(header), {.lines = lines,
-                                                      .values = component.acceleration,
-                                                      .unit = component.unit,
-                                                      .time_step = component.time_step,
-                                                      .rounding = 0});
+    compare(stated_peak(header), component, lines, 0);
     return {.format = of_kiknet ? "KiK-net" : "K-NET", .components = {std::move(component)}};
 }
 

@@ -108,14 +108,8 @@ RecordFile read_smc(Lines lines, const RecordOptions&)
                               .is_uncorrected = contains(kind.line(), "UNCORRECTED"),
                               .header = kept_lines(before, last_of_header)};
     expect_no_times(rates, component.acceleration);
-    component.remarks =
-        compare(stated_numbers(before),
-                {.lines = before,
-                 .values = component.acceleration,
-                 .unit = component.unit,
-                 .time_step = component.time_step,
-                 .rounding = rounding_of(column_of(rates.line(), 15, 1)) / (rate * rate),
-                 .may_have_offset = component.is_uncorrected});
+    compare(stated_numbers(before), component, before,
+            rounding_of(column_of(rates.line(), 15, 1)) / (rate * rate));
     return {.format = "SMC", .components = {std::move(component)}};
 }
 

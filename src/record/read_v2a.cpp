@@ -84,13 +84,8 @@ RecordComponent take_component(Lines& lines)
         return take_columns(lines, columns, {count, name, counts.number()});
     };
     component.acceleration = take(3, "acceleration", 1);
-    component.remarks =
-        compare(stated_numbers(before),
-                {.lines = before,
-                 .values = component.acceleration,
-                 .unit = component.unit,
-                 .time_step = component.time_step,
-                 .rounding = rounding_of(column_of(times.line(), columns.width, 5))});
+    compare(stated_numbers(before), component, before,
+            rounding_of(column_of(times.line(), columns.width, 5)));
     take(4, "velocity", 0); // which may be missing, like the displacement
     take(5, "displacement", 0);
     return component;

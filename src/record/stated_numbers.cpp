@@ -252,6 +252,17 @@ std::vector<std::string> compare(const std::vector<StatedNumber>& stated, const 
     return remarks;
 }
 
+void compare(const std::vector<StatedNumber>& stated, RecordComponent& component,
+             const Lines& lines, double rounding)
+{
+    component.remarks = compare(stated, {.lines = lines,
+                                         .values = component.acceleration,
+                                         .unit = component.unit,
+                                         .time_step = component.time_step,
+                                         .rounding = rounding,
+                                         .may_have_offset = component.is_uncorrected});
+}
+
 StatedNumber peak_after(const Lines& lines, std::string_view words, std::string_view name)
 {
     const std::string_view line = lines.line();

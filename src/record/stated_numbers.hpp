@@ -55,6 +55,10 @@ struct Samples {
 /// numbers, 0, and marks of unknown numbers are skipped.
 std::vector<std::string> compare(const std::vector<StatedNumber>& stated, const Samples& samples);
 
+/// The same with the samples of a component, which takes the remarks. rounding: of the time step.
+void compare(const std::vector<StatedNumber>& stated, RecordComponent& component,
+             const Lines& lines, double rounding);
+
 /// The peak after some words, as in `peak  -9733.1 mm/s/s at  44.88 sec`. Nothing, that is an empty
 /// word, if another unit follows than one that is understood, or counts.
 StatedNumber peak_after(const Lines& lines, std::string_view words, std::string_view name);
