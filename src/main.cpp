@@ -13,11 +13,11 @@ int main(int argc, char** argv)
     // Under a launcher only rank 0 prints messages and executes the commands that are not parallel.
     // The other ranks return 0: if they returned an error, a launcher might kill rank 0 before it
     // prints.
-    const bool leads = launched_rank() == 0;
+    const bool is_rank_0 = launched_rank() == 0;
     keep_freed_memory();
     try {
         const Command command = read_command_line(argc, argv);
-        if (!leads && !command.on_every_rank) {
+        if (!is_rank_0 && !command.on_every_rank) {
             return exit_code::complete;
         }
         const int code = command.execute();
@@ -27,6 +27,6 @@ int main(int argc, char** argv)
         }
         return code;
     } catch (const std::exception& error) {
-        return leads ? print_error(error) : exit_code::complete;
+        return is_rank_0 ? print_error(error) : exit_code::complete;
     }
 }

@@ -83,8 +83,8 @@ int accuracy(const AccuracyOptions& options)
                     "plane. Give [plane] instead of [blocks].",
                     options.job.path, job.blocks->file);
     }
-    const SoleWriter sole_writer(options.output);
-    expect_study_output(options.output, FileKind::accuracy, sole_writer);
+    const OutputLock output_lock(options.output);
+    expect_study_output(options.output, FileKind::accuracy, output_lock);
     print_warnings(warnings_on(job));
     print_line(
         fmt::format("settling verdicts and computing about {} points in 50 digits: about {} s",

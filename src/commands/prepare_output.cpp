@@ -49,12 +49,12 @@ std::string output_path(const RunOptions& options)
 }
 
 std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const std::string& path,
-                                                        const SoleWriter& writer)
+                                                        const OutputLock& lock)
 {
     std::optional<std::vector<std::int64_t>> damaged;
     bool is_complete = false;
     {
-        const GuardedReading guarded(path, writer.lock());
+        const GuardedReading guarded(path, lock.path());
         if (const auto stored = existing_result(path, job)) {
             damaged = find_damaged_tiles(*stored);
             is_complete = damaged->empty() && stored->tiles().tiles_done == stored->tiles().tiles;
@@ -78,9 +78,9 @@ std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const st
     return damaged;
 }
 
-void expect_study_output(const std::string& path, FileKind kind, const SoleWriter& writer)
+void expect_study_output(const std::string& path, FileKind kind, const OutputLock& lock)
 {
-    const GuardedReading guarded(path, writer.lock());
+    const GuardedReading guarded(path, lock.path());
     expect_room_for(path, kind);
 }
 

@@ -3,7 +3,7 @@
 
 #include "commands.hpp"
 
-#include "overturn/file/sole_writer.hpp"
+#include "overturn/file/output_lock.hpp"
 #include "overturn/file/stored_result.hpp"
 #include "overturn/job/job.hpp"
 
@@ -17,13 +17,12 @@ namespace overturn {
 /// The result file of a run.
 std::string output_path(const RunOptions& options);
 
-/// Creates the file of the job, whose lock is that of `writer`, unless it exists. Returns the
-/// numbers of its damaged tiles; nullopt if it is complete. Throws Error.
+/// Creates the file of the job unless it exists. Returns the numbers of its damaged tiles; nullopt
+/// if it is complete. lock: of the file. Throws Error.
 std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const std::string& path,
-                                                        const SoleWriter& writer);
+                                                        const OutputLock& lock);
 
-/// Throws Error if a history or an accuracy study cannot be written to the path, whose lock is that
-/// of `writer`.
-void expect_study_output(const std::string& path, FileKind kind, const SoleWriter& writer);
+/// Throws Error if a history or an accuracy study cannot be written to the path. lock: of the file.
+void expect_study_output(const std::string& path, FileKind kind, const OutputLock& lock);
 
 } // namespace overturn

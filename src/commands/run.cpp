@@ -43,7 +43,7 @@ struct Task {
     const Items items = items_of(problem);
     const Kernel kernel = kernel_called(options.kernel);
 
-    bool leads() const { return session.rank() == 0; }
+    bool is_rank_0() const { return session.rank() == 0; }
     std::int64_t items_in(std::int64_t tiles) const
     {
         return std::int64_t(double(items.count) * (double(tiles) / double(tiling.size())));
@@ -132,7 +132,7 @@ int compute_missing_tiles(const Task& task)
     const std::string path =
         task.session.from_rank_0(std::filesystem::absolute(task.path).string());
     if (const auto other = rank_with_another_file(path, task.session.communicator())) {
-        if (task.leads()) {
+        if (task.is_rank_0()) {
             const std::vector<std::string>& hosts = task.session.hosts();
             print_error(Error(exit_code::output,
                               "\"{}\" is not the same file on rank {} (host {}) as on rank 0 (host "
@@ -143,9 +143,9 @@ int compute_missing_tiles(const Task& task)
     }
     SpectrumFile file(path, task.session.communicator(), task.problem, task.options.durable);
     std::vector<std::int64_t> missing;
-    if (task.leads()) {
+    if (task.is_rank_0()) {
         for (const std::int64_t number : task.damaged) {
-            file.forget(task.tiling[number]);
+            file.reset(task.tiling[number]);
         }
         missing = file.missing_tiles();
         print_line(start_line(task, task.tiling.size() - std::int64_t(missing.size())));
@@ -153,7 +153,7 @@ int compute_missing_tiles(const Task& task)
     const FarmReport report = compute_tiles(task, missing, file);
     file.close();
     int code = exit_code::complete;
-    if (task.leads()) {
+    if (task.is_rank_0()) {
         const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
         write_sidecar(task.path,
                       sidecar_of(report, task.session.hosts(), task.kernel, task.start, seconds));
@@ -172,7 +172,7 @@ int run(const RunOptions& options)
     std::signal(SIGPIPE, SIG_IGN); // a run continues if the reader of its log ends
     const std::string path = output_path(options);
     std::optional<Job> job;
-    std::optional<SoleWriter> sole_writer;
+    std::optional<OutputLock> output_lock;
     std::vector<std::int64_t> damaged;
     bool computes = false;
     int code = exit_code::complete;
@@ -188,8 +188,8 @@ int run(const RunOptions& options)
                 job = boundary_of(std::move(*job));
             }
             expect_path_for_mpi(std::filesystem::absolute(path).string());
-            sole_writer.emplace(path);
-            if (const auto found = prepare_output(*job, path, *sole_writer)) {
+            output_lock.emplace(path);
+            if (const auto found = prepare_output(*job, path, *output_lock)) {
                 print_warnings(warnings_on(*job));
                 std::ranges::for_each(notes_on(*job), print_line);
                 damaged = *found;

@@ -160,10 +160,10 @@ int topple(const ToppleOptions& options)
     if (!options.json) {
         print_warnings(warnings_on(job));
     }
-    std::optional<SoleWriter> sole_writer;
+    std::optional<OutputLock> output_lock;
     if (!options.history.empty()) {
-        sole_writer.emplace(options.history);
-        expect_study_output(options.history, FileKind::history, *sole_writer);
+        output_lock.emplace(options.history);
+        expect_study_output(options.history, FileKind::history, *output_lock);
     }
     const std::vector<DirectedAnswer> answers = answers_for(std::move(jobs), options);
     if (!options.history.empty()) {

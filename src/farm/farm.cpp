@@ -1,7 +1,8 @@
-// Rank 0 leads, all others work, and both compute tiles. A worker requests its next range while it
-// computes the current one, and rank 0 answers at once while tiles are left. Once none is left,
-// rank 0 keeps the request. At intervals it answers with an empty range, after which the worker
-// repeats its request, which shows that it is alive; the last answer is `end_of_work`.
+// Rank 0 coordinates the other ranks, the workers, and all compute tiles. A worker requests its
+// next range while it computes the current one, and rank 0 answers at once while tiles are left.
+// Once none is left, rank 0 keeps the request. At intervals it answers with an empty range, after
+// which the worker repeats its request, which shows that it is alive; the last answer is
+// `end_of_work`.
 #include "overturn/farm/farm.hpp"
 
 #include "overturn/farm/tile_dispatcher.hpp"
@@ -32,7 +33,7 @@ struct WorkerMessage {
 constexpr TileRange end_of_work{-1, -1};
 
 /// Limits how often something is done in a loop.
-struct Occasionally {
+struct IntervalTimer {
     Clock::duration interval;
     Clock::time_point last = Clock::now();
 
@@ -52,8 +53,8 @@ double busy_seconds(const RankShare& share)
 }
 
 /// Computes and writes one tile, and measures both times.
-void do_tile(std::int64_t number, const TileWork& tile_work, const DropRequested& drop_requested,
-             RankShare& share)
+void compute_and_write(std::int64_t number, const TileWork& tile_work,
+                       const DropRequested& drop_requested, RankShare& share)
 {
     const auto start = Clock::now();
     const bool was_computed = tile_work.compute(number, drop_requested);
@@ -68,7 +69,7 @@ void do_tile(std::int64_t number, const TileWork& tile_work, const DropRequested
 }
 
 /// on_host: " on HOST"; empty if the host is unknown.
-Error silence_of(int rank, const std::string& on_host, std::chrono::seconds patience)
+Error timeout_error(int rank, const std::string& on_host, std::chrono::seconds patience)
 {
     return Error(exit_code::stopped,
                  "rank {}{} has not responded for {} s: it is suspended, its disk hangs, or its "
@@ -111,7 +112,7 @@ public:
             }
             last_test = now;
             if (now - start > patience_) {
-                throw silence_of(0, "", patience_);
+                throw timeout_error(0, "", patience_);
             }
             std::this_thread::sleep_for(polling_interval);
         }
@@ -132,8 +133,8 @@ private:
 
 /// Requests ranges of tiles and computes them, until rank 0 has sent `end_of_work`. Throws Error if
 /// rank 0 is silent.
-RankShare work(const MpiSession& session, const TileWork& tile_work, const StopRequest& stop,
-               std::chrono::seconds patience)
+RankShare run_worker(const MpiSession& session, const TileWork& tile_work, const StopRequest& stop,
+                     std::chrono::seconds patience)
 {
     RankShare share;
     RankShare reported;
@@ -147,7 +148,7 @@ RankShare work(const MpiSession& session, const TileWork& tile_work, const StopR
         return message;
     };
     LinkToRank0 rank_0(session.communicator(), patience);
-    Occasionally regular_report{std::chrono::milliseconds(patience) / messages_in_patience};
+    IntervalTimer regular_report{std::chrono::milliseconds(patience) / messages_in_patience};
     // The computation of a tile calls it regularly, so messages are sent there, too.
     const DropRequested drop_requested = [&] {
         if (regular_report.is_due()) {
@@ -163,7 +164,7 @@ RankShare work(const MpiSession& session, const TileWork& tile_work, const StopR
         }
         rank_0.request_range(report(range.empty())); // one range ahead
         for (auto number = range.begin; number < range.end && !stop.requested(); ++number) {
-            do_tile(number, tile_work, drop_requested, share);
+            compute_and_write(number, tile_work, drop_requested, share);
         }
         if (!range.empty() && !rank_0.has_answered()) {
             rank_0.send(report(true));
@@ -179,10 +180,10 @@ constexpr std::chrono::milliseconds answer_interval{10};
 /// connection.
 constexpr double longest_answer = 1e-4; // [s]
 
-class Leader {
+class Coordinator {
 public:
-    Leader(const MpiSession& session, const std::vector<std::int64_t>& tiles,
-           const TileWork& tile_work, const StopRequest& stop, std::chrono::seconds patience)
+    Coordinator(const MpiSession& session, const std::vector<std::int64_t>& tiles,
+                const TileWork& tile_work, const StopRequest& stop, std::chrono::seconds patience)
         : session_(session), dispatcher_(tiles, session.size()), tile_work_(tile_work), stop_(stop),
           patience_(patience), workers_(std::size_t(session.size()))
     {}
@@ -190,9 +191,9 @@ public:
     /// Answers every request that has arrived, then computes one tile, until no tile is left and
     /// all workers are done. Returns its own share and the cost of dispatching. Throws Error if a
     /// worker is silent.
-    FarmReport lead()
+    FarmReport run()
     {
-        Occasionally communication{answer_interval};
+        IntervalTimer communication{answer_interval};
         // The computation of a tile calls it regularly, so messages are handled there, too.
         const DropRequested drop_requested = [&] {
             if (communication.is_due()) {
@@ -204,7 +205,7 @@ public:
             communicate();
             const TileRange own = dispatcher_.next_tile();
             if (!own.empty()) {
-                do_tile(own.begin, tile_work_, drop_requested, share_);
+                compute_and_write(own.begin, tile_work_, drop_requested, share_);
             } else if (!std::all_of(workers_.begin() + 1, workers_.end(),
                                     [](const Worker& worker) { return worker.is_done(); })) {
                 std::this_thread::sleep_for(polling_interval);
@@ -312,7 +313,7 @@ private:
             if (was_suspended) {
                 worker.last_message = now;
             } else if (now - worker.last_message > patience_) {
-                throw silence_of(rank, " on " + session_.hosts()[std::size_t(rank)], patience_);
+                throw timeout_error(rank, " on " + session_.hosts()[std::size_t(rank)], patience_);
             }
             if (worker.is_done()) {
                 answer(rank, {});
@@ -326,7 +327,7 @@ private:
     const StopRequest& stop_;
     std::chrono::seconds patience_;
     std::vector<Worker> workers_; ///< by rank; the first, rank 0 itself, is unused
-    Occasionally timeout_check_{std::chrono::milliseconds(patience_) / 20};
+    IntervalTimer timeout_check_{std::chrono::milliseconds(patience_) / 20};
     Clock::time_point last_timeout_check_ = Clock::now();
     RankShare share_;
     std::int64_t done_by_workers_ = 0;
@@ -342,9 +343,9 @@ FarmReport farm_out(const MpiSession& session, const std::vector<std::int64_t>& 
 {
     FarmReport report;
     if (session.rank() == 0) {
-        report = Leader(session, tiles, tile_work, stop, patience).lead();
+        report = Coordinator(session, tiles, tile_work, stop, patience).run();
     } else {
-        report.ranks = {work(session, tile_work, stop, patience)};
+        report.ranks = {run_worker(session, tile_work, stop, patience)};
     }
     report.ranks = session.gather_on_rank_0(report.ranks[0]);
     for (const RankShare& rank : report.ranks) {

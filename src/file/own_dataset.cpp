@@ -50,7 +50,7 @@ bool is_stored_as_a_whole(hid_t dataset, hid_t creation, const hdf5::Extents& sh
         check(H5Pget_chunk(creation, int(chunk.size()), chunk.data()));
     }
     for (std::size_t i = 0; i < shape.size(); ++i) {
-        demand(chunk[i] >= 1, "a dataset has empty chunks");
+        require(chunk[i] >= 1, "a dataset has empty chunks");
         expected *= (shape[i] + chunk[i] - 1) / chunk[i] * chunk[i];
     }
     return H5Dget_storage_size(dataset) == expected || is_compressed(creation);
@@ -58,7 +58,7 @@ bool is_stored_as_a_whole(hid_t dataset, hid_t creation, const hdf5::Extents& sh
 
 } // namespace
 
-void demand(bool condition, std::string_view what_is_wrong)
+void require(bool condition, std::string_view what_is_wrong)
 {
     if (!condition) {
         throw hdf5::Hdf5Error(std::string(what_is_wrong));
@@ -71,16 +71,16 @@ Handle open_own_dataset(hid_t file, const std::string& name)
     for (std::size_t end = name.find('/');; end = name.find('/', end + 1)) {
         H5L_info_t link = {};
         check(H5Lget_info(file, name.substr(0, end).c_str(), &link, H5P_DEFAULT));
-        demand(link.type == H5L_TYPE_HARD, "a dataset is a link to another object");
+        require(link.type == H5L_TYPE_HARD, "a dataset is a link to another object");
         if (end == name.npos) {
             break;
         }
     }
     Handle dataset = hdf5::open_dataset(file, name);
     const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
-    demand(check(H5Pget_external_count(creation)) == 0 && H5Pget_layout(creation) != H5D_VIRTUAL,
-           "the values of a dataset are stored in another file");
-    demand(count_names(dataset) == 1, "a dataset has two names");
+    require(check(H5Pget_external_count(creation)) == 0 && H5Pget_layout(creation) != H5D_VIRTUAL,
+            "the values of a dataset are stored in another file");
+    require(count_names(dataset) == 1, "a dataset has two names");
     return dataset;
 }
 
@@ -100,21 +100,21 @@ bool has_type(hid_t dataset, const hdf5::Type& expected)
 
 std::size_t count_stored(hid_t dataset, const hdf5::Type& type, std::uint64_t bytes_of_file)
 {
-    const auto demand_that = [&](bool condition, const char* what_is_wrong) {
-        demand(condition, fmt::format("the dataset {} {}", name_of(dataset), what_is_wrong));
+    const auto require_that = [&](bool condition, const char* what_is_wrong) {
+        require(condition, fmt::format("the dataset {} {}", name_of(dataset), what_is_wrong));
     };
-    demand_that(has_type(dataset, type), "has another type");
+    require_that(has_type(dataset, type), "has another type");
     const hsize_t bytes_per_value = H5Tget_size(type.file);
     const hdf5::Extents shape = shape_of(dataset);
     const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
     const std::uint64_t most = bytes_of_file * (is_compressed(creation) ? largest_compression : 1);
     hsize_t count = 1;
     for (const hsize_t length : shape) {
-        demand_that(length > 0, "is empty");
-        demand_that(length <= most / bytes_per_value / count, "is larger than the file");
+        require_that(length > 0, "is empty");
+        require_that(length <= most / bytes_per_value / count, "is larger than the file");
         count *= length;
     }
-    demand_that(is_stored_as_a_whole(dataset, creation, shape, bytes_per_value), "lacks values");
+    require_that(is_stored_as_a_whole(dataset, creation, shape, bytes_per_value), "lacks values");
     return count;
 }
 

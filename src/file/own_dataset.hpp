@@ -11,7 +11,7 @@
 namespace overturn {
 
 /// Throws Hdf5Error unless the condition holds.
-void demand(bool condition, std::string_view what_is_wrong);
+void require(bool condition, std::string_view what_is_wrong);
 
 /// Opens a dataset that is stored in the file itself, under a single name. HDF5 follows links and
 /// external storage into other files, which a resumed run would write to.

@@ -390,7 +390,7 @@ void write_token(const std::string& path, std::uint64_t token)
     }
 }
 
-bool holds(const std::string& path, std::uint64_t token)
+bool contains_token(const std::string& path, std::uint64_t token)
 {
     try {
         const Handle file = hdf5::open_to_read(path);
@@ -445,7 +445,7 @@ std::optional<int> rank_with_another_file(const std::string& path, MPI_Comm comm
         write_token(path, token);
     }
     MPI_Bcast(&token, 1, MPI_UINT64_T, 0, communicator);
-    const int other = holds(path, token) ? ranks : rank;
+    const int other = contains_token(path, token) ? ranks : rank;
     int first = ranks;
     MPI_Reduce(&other, &first, 1, MPI_INT, MPI_MIN, 0, communicator);
     if (rank == 0) {
@@ -509,7 +509,7 @@ std::vector<std::int64_t> SpectrumFile::missing_tiles()
     }
 }
 
-void SpectrumFile::forget(const Tile& tile)
+void SpectrumFile::reset(const Tile& tile)
 {
     const auto nothing_in = [&](const StoredField& stored) {
         return not_computed(stored.field, stored.part_of(tile).points());

@@ -89,16 +89,16 @@ std::vector<Field> read_fields(hid_t file)
             fields.push_back({found->name});
         }
     }
-    demand(!fields.empty(), "there are no fields");
+    require(!fields.empty(), "there are no fields");
     return fields;
 }
 
 void check_field(hid_t file, Field field, const std::vector<AxisSummary>& axes, std::uint64_t bytes)
 {
     const Handle dataset = open_own_dataset(file, std::string(name_of(field)));
-    demand(std::ranges::equal(shape_of(dataset), axes, {}, {},
-                              [](const AxisSummary& axis) { return hsize_t(axis.size); }),
-           "a field does not fit the axes");
+    require(std::ranges::equal(shape_of(dataset), axes, {}, {},
+                               [](const AxisSummary& axis) { return hsize_t(axis.size); }),
+            "a field does not fit the axes");
     count_stored(dataset, layout::type_of(field), bytes);
 }
 
@@ -172,27 +172,27 @@ struct StoredResult::Open {
         const Handle dataset = open_number(layout::checksum);
         std::istringstream words(hdf5::read_text_attribute(dataset, layout::dimensions));
         const std::vector<std::string> names{std::istream_iterator<std::string>(words), {}};
-        demand(names.size() <= H5S_MAX_RANK, "the dimensions are malformed");
+        require(names.size() <= H5S_MAX_RANK, "the dimensions are malformed");
         for (const std::string& name : names) {
             const Handle axis = open_own_dataset(file, name);
-            demand(shape_of(axis).size() == 1, "an axis is malformed");
+            require(shape_of(axis).size() == 1, "an axis is malformed");
             tiles.axes.push_back(read_axis(axis, name, bytes));
         }
         tiles.numbers = read_coordinate_numbers(file, bytes);
         tiles.fields = read_fields(file);
         for (const Field field : tiles.fields) {
-            demand(traits_of(field).of != FieldOf::line || crossing() < tiles.axes.size(),
-                   "the dimension `crossing` is missing");
+            require(traits_of(field).of != FieldOf::line || crossing() < tiles.axes.size(),
+                    "the dimension `crossing` is missing");
             check_field(file, field, stored_dimensions_of(field, tiles.axes, crossing()), bytes);
         }
         tiles.tile_shape = hdf5::read_integers_attribute(dataset, layout::tile_shape);
-        demand(tiles.tile_shape.size() == tiles.axes.size() &&
-                   std::ranges::all_of(tiles.tile_shape, [](auto size) { return size >= 1; }),
-               "the tiles are malformed");
+        require(tiles.tile_shape.size() == tiles.axes.size() &&
+                    std::ranges::all_of(tiles.tile_shape, [](auto size) { return size >= 1; }),
+                "the tiles are malformed");
         tiles.tiles = tiling().size();
         const auto read_numbers = [&](hid_t numbers) {
-            demand(shape_of(numbers) == hdf5::Extents{hsize_t(tiles.tiles)},
-                   "the numbers of the tiles do not fit the tiles");
+            require(shape_of(numbers) == hdf5::Extents{hsize_t(tiles.tiles)},
+                    "the numbers of the tiles do not fit the tiles");
             return read_all<std::uint64_t>(numbers, bytes);
         };
         checksums = read_numbers(dataset);
@@ -298,7 +298,7 @@ BoundaryLines StoredResult::count_lines() const
         const auto is_undecided = [](std::uint8_t code) {
             return Region(code) == Region::undecided;
         };
-        demand(tile.points() == tile.count[open_->crossing()], "a tile has several lines");
+        require(tile.points() == tile.count[open_->crossing()], "a tile has several lines");
         ++lines.computed;
         lines.undecided +=
             std::ranges::any_of(below, is_undecided) || std::ranges::any_of(above, is_undecided);

@@ -32,28 +32,28 @@ std::string written(bool is_terminal, Use use)
 
 TEST(ProgressText, ShowsCountShareRateAndTimeLeft)
 {
-    const Moment moment{.before = 0, .done = 1'200'000, .all = 3'000'000, .seconds = 2};
-    EXPECT_EQ(progress_text(moment), "1.20 M of 3.00 M points, 40 %, 600 k points/s, 3.00 s left");
+    const ProgressState state{.before = 0, .done = 1'200'000, .all = 3'000'000, .seconds = 2};
+    EXPECT_EQ(progress_text(state), "1.20 M of 3.00 M points, 40 %, 600 k points/s, 3.00 s left");
 }
 
 TEST(ProgressText, ExcludesThePointsOfAnEarlierRunFromTheRate)
 {
-    const Moment moment{.before = 1000, .done = 2000, .all = 12'000, .seconds = 1};
-    EXPECT_EQ(progress_text(moment), "2.00 k of 12.0 k points, 16 %, 1.00 k points/s, 10 s left");
+    const ProgressState state{.before = 1000, .done = 2000, .all = 12'000, .seconds = 1};
+    EXPECT_EQ(progress_text(state), "2.00 k of 12.0 k points, 16 %, 1.00 k points/s, 10 s left");
 }
 
 TEST(ProgressText, ShowsAHundredPercentOnlyWhenComplete)
 {
-    const Moment nearly{.before = 0, .done = 99'999, .all = 100'000, .seconds = 1};
+    const ProgressState nearly{.before = 0, .done = 99'999, .all = 100'000, .seconds = 1};
     EXPECT_NE(progress_text(nearly).find(" 99 %"), std::string::npos);
 }
 
 TEST(ProgressText, ShowsNoRateBeforeTheFirstPoint)
 {
-    Moment moment{.before = 500, .done = 500, .all = 1000, .seconds = 1};
-    EXPECT_EQ(progress_text(moment), "500 of 1.00 k points, 50 %");
-    moment.items = "lines";
-    EXPECT_EQ(progress_text(moment), "500 of 1.00 k lines, 50 %");
+    ProgressState state{.before = 500, .done = 500, .all = 1000, .seconds = 1};
+    EXPECT_EQ(progress_text(state), "500 of 1.00 k points, 50 %");
+    state.items = "lines";
+    EXPECT_EQ(progress_text(state), "500 of 1.00 k lines, 50 %");
 }
 
 TEST(Progress, IsSilentInAShortRun)

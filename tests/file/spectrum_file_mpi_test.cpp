@@ -114,7 +114,7 @@ TEST_F(SpectrumFileOnRanks, HasTheBytesOfANewFileAfterAllTilesAreCleared)
     SpectrumFile file(folder / "a.h5", MPI_COMM_WORLD, job.problem);
     if (rank == ranks - 1) {
         for (const std::int64_t number : first_tiles(tiling.size())) {
-            file.forget(tiling[number]);
+            file.reset(tiling[number]);
         }
     }
     file.close();

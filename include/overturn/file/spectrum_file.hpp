@@ -59,7 +59,7 @@ public:
     std::vector<std::int64_t> missing_tiles();
 
     /// Resets a damaged tile to "not computed", its values first. To be called by one rank.
-    void forget(const Tile& tile);
+    void reset(const Tile& tile);
 
     /// Stores a tile, its checksum last. Not collective.
     void write(const Tile& tile, const TileFields& fields);

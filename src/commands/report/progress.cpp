@@ -20,21 +20,20 @@ constexpr double longest_log_interval = 600;
 
 } // namespace
 
-std::string progress_text(const Moment& moment)
+std::string progress_text(const ProgressState& state)
 {
     // Truncated: only a complete run shows 100 %.
-    const int percent = int(100 * double(moment.done) / double(moment.all));
-    std::string text = fmt::format("{} of {} {}, {} %", human_count(double(moment.done)),
-                                   human_count(double(moment.all)), moment.items, percent);
-    const double computed = double(moment.done - moment.before);
-    if (computed > 0 && moment.seconds > 0) {
-        const double rate = computed / moment.seconds;
+    const int percent = int(100 * double(state.done) / double(state.all));
+    std::string text = fmt::format("{} of {} {}, {} %", human_count(double(state.done)),
+                                   human_count(double(state.all)), state.items, percent);
+    const double computed = double(state.done - state.before);
+    if (computed > 0 && state.seconds > 0) {
+        const double rate = computed / state.seconds;
         if (rate >= 0.5) { // otherwise 0 when rounded
-            text += fmt::format(", {} {}/s", human_count(rate), moment.items);
+            text += fmt::format(", {} {}/s", human_count(rate), state.items);
         }
-        if (moment.done < moment.all) {
-            text +=
-                fmt::format(", {} left", human_duration(double(moment.all - moment.done) / rate));
+        if (state.done < state.all) {
+            text += fmt::format(", {} left", human_duration(double(state.all - state.done) / rate));
         }
     }
     return text;
@@ -42,7 +41,7 @@ std::string progress_text(const Moment& moment)
 
 Progress::Progress(std::int64_t before, std::int64_t all, const char* items, std::FILE* stream,
                    bool terminal)
-    : moment_{.before = before, .all = all, .items = items}, stream_(stream), terminal_(terminal),
+    : state_{.before = before, .all = all, .items = items}, stream_(stream), terminal_(terminal),
       next_(terminal ? redraw_interval : first_log_line)
 {}
 
@@ -55,18 +54,18 @@ Progress::~Progress()
 
 void Progress::update(std::int64_t done)
 {
-    moment_.done = done;
-    moment_.seconds =
+    state_.done = done;
+    state_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const bool last_redraw = line_is_open_ && done == moment_.all;
-    if (moment_.seconds < next_ && !last_redraw) {
+    const bool last_redraw = line_is_open_ && done == state_.all;
+    if (state_.seconds < next_ && !last_redraw) {
         return;
     }
-    next_ = moment_.seconds + (terminal_ ? redraw_interval
-                                         : std::clamp(moment_.seconds / 10, shortest_log_interval,
-                                                      longest_log_interval));
+    next_ = state_.seconds + (terminal_ ? redraw_interval
+                                        : std::clamp(state_.seconds / 10, shortest_log_interval,
+                                                     longest_log_interval));
     // On a terminal: return to the first column, and erase the rest of a longer line.
-    std::fprintf(stream_, terminal_ ? "\r%s\x1b[K" : "%s\n", progress_text(moment_).c_str());
+    std::fprintf(stream_, terminal_ ? "\r%s\x1b[K" : "%s\n", progress_text(state_).c_str());
     std::fflush(stream_); // failure ignored: the reader may have ended
     line_is_open_ = terminal_;
 }

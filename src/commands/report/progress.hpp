@@ -11,7 +11,7 @@
 namespace overturn {
 
 /// The state of a run, which may have resumed an earlier one.
-struct Moment {
+struct ProgressState {
     std::int64_t before = 0; ///< done by earlier runs
     std::int64_t done = 0;   ///< by all runs
     std::int64_t all = 0;
@@ -20,7 +20,7 @@ struct Moment {
 };
 
 /// "1.20 M of 3.00 M points, 40 %, 812 k points/s, 2 s left".
-std::string progress_text(const Moment& moment);
+std::string progress_text(const ProgressState& state);
 
 class Progress {
 public:
@@ -37,7 +37,7 @@ public:
     void update(std::int64_t done);
 
 private:
-    Moment moment_; ///< of the last update
+    ProgressState state_; ///< of the last update
     std::FILE* stream_;
     bool terminal_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

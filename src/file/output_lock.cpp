@@ -1,4 +1,4 @@
-#include "overturn/file/sole_writer.hpp"
+#include "overturn/file/output_lock.hpp"
 
 #include "overturn/text/error.hpp"
 
@@ -59,7 +59,7 @@ int open_lock(const std::string& lock)
 
 } // namespace
 
-SoleWriter::SoleWriter(const std::string& path) : lock_(lock_of(path))
+OutputLock::OutputLock(const std::string& path) : lock_(lock_of(path))
 {
     do {
         if (descriptor_ >= 0) {
@@ -81,7 +81,7 @@ SoleWriter::SoleWriter(const std::string& path) : lock_(lock_of(path))
     } while (!is_in_place(descriptor_, lock_));
 }
 
-SoleWriter::~SoleWriter()
+OutputLock::~OutputLock()
 {
     if (descriptor_ >= 0) {
         unlink(lock_.c_str());

@@ -1,6 +1,6 @@
 #include "support/scratch_folder.hpp"
 
-#include "overturn/file/sole_writer.hpp"
+#include "overturn/file/output_lock.hpp"
 #include "overturn/text/error.hpp"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@
 namespace overturn {
 namespace {
 
-TEST(SoleWriter, IsRefusedOnlyIfAnotherExists)
+TEST(OutputLock, IsRefusedOnlyIfAnotherExists)
 {
     const ScratchFolder folder;
     const std::string path = folder / "a.h5";
@@ -22,7 +22,7 @@ TEST(SoleWriter, IsRefusedOnlyIfAnotherExists)
     const auto take_turns = [&] {
         for (int turn = 0; turn < 20'000; ++turn) {
             try {
-                const SoleWriter writer(path);
+                const OutputLock writer(path);
                 EXPECT_EQ(++held, 1);
                 --held;
             } catch (const Error& error) {

@@ -9,16 +9,16 @@ namespace overturn {
 /// Held by rank 0 during a run. The file OUT.h5.lock is locked, not the result file: over NFS, a
 /// lock on the latter would prevent the other ranks from writing. The lock is released when the
 /// process ends, even if it is killed.
-class SoleWriter {
+class OutputLock {
 public:
     /// Throws Error if another run holds the lock. Does nothing where files cannot be locked.
-    explicit SoleWriter(const std::string& path);
-    ~SoleWriter();
-    SoleWriter(const SoleWriter&) = delete;
-    SoleWriter& operator=(const SoleWriter&) = delete;
+    explicit OutputLock(const std::string& path);
+    ~OutputLock();
+    OutputLock(const OutputLock&) = delete;
+    OutputLock& operator=(const OutputLock&) = delete;
 
     /// The path of the locked file; empty if there is none.
-    std::string lock() const { return descriptor_ >= 0 ? lock_ : ""; }
+    std::string path() const { return descriptor_ >= 0 ? lock_ : ""; }
 
 private:
     std::string lock_;
