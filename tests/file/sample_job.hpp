@@ -60,6 +60,7 @@ inline TileFields sample_values(const Job& job, const Tile& tile)
     };
     TileFields result;
     for (const Field field : job.problem.fields) {
+        const auto number = double(&traits_of(field) - all_fields().data());
         FieldValues values = not_computed(field, tile.points());
         std::visit(
             [&](auto& list) {
@@ -68,7 +69,7 @@ inline TileFields sample_values(const Job& job, const Tile& tile)
                     const std::int64_t position = position_of(i);
                     list[std::size_t(i)] = Value(position % 251);
                     if constexpr (std::is_floating_point_v<Value>) {
-                        list[std::size_t(i)] = double(position) + double(int(field)) / 8;
+                        list[std::size_t(i)] = double(position) + number / 8;
                     }
                 }
             },
