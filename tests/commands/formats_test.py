@@ -21,10 +21,9 @@ class AnotherFormat(Scratch):
                 self.assert_exit(self.overturn(*command), 74, refused)
             self.assert_exit(self.overturn("run", "small.toml"), 74, refused, "Choose another name with -o")
             self.assertEqual((self.folder / "small.h5").read_bytes(), before)
-            if version != 3:
-                drawn = self.tool("plot_spectrum", "small.h5")
-                self.assertEqual(drawn.returncode, 74, drawn.stderr)
-                self.assertIn("newer" if version > 4 else str(version), drawn.stderr)
+            drawn = self.tool("plot_spectrum", "small.h5")
+            self.assertEqual(drawn.returncode, 74, drawn.stderr)
+            self.assertIn("newer" if version > 4 else str(version), drawn.stderr)
 
 
 if __name__ == "__main__":
