@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib import colors
 from plot_spectrum_test import F_MINUS, NOT_COMPUTED, S, S_PLUS, UNDECIDED
 from recorded_spectra_test import Recorded  # first: adds the package to the path
-from overturn import practice
+from overturn.marked_points import COLOUR
 
 
 class TestPublishedPractice(Recorded):
@@ -22,7 +22,7 @@ class TestPublishedPractice(Recorded):
         self.add("peak", np.repeat([0.999, 1.0, 1.3, np.inf], 3))
         self.assertIn("safe, although |theta| reaches alpha: 6 of 9 safe points (66.7 %)",
                       self.practice())
-        colour = [round(255 * part) for part in colors.to_rgb(practice.COLOUR)]
+        colour = [round(255 * part) for part in colors.to_rgb(COLOUR)]
         marked = np.count_nonzero((self.picture("--practice") == colour).all(axis=2))
         self.assertAlmostEqual(marked / 1e6, 0.5, delta=0.01)
         words = self.words("--practice")

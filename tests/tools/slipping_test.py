@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 from plot_spectrum_test import F_MINUS, NOT_COMPUTED, S, UNDECIDED
 from recorded_spectra_test import Recorded  # first: adds the package to the path
-from overturn.slipping import slips
+from overturn.marked_points import slips
 
 
 class TestSlippingBlocks(Recorded):

@@ -8,10 +8,10 @@ from types import SimpleNamespace
 
 import numpy as np
 from matplotlib.lines import Line2D
-from overturn import practice
 from overturn.captions import ground_word, heading, panel_titles, plain, subtitle
 from overturn.choice import add_choice_arguments, sheet_of
 from overturn.friction import expect_coefficient
+from overturn.marked_points import Misjudged, Slipping
 from overturn.output_file import save
 from overturn.overlay import draw_boundary, open_boundary
 from overturn.plot.bands import set_axes
@@ -19,7 +19,6 @@ from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.region_labels import Label, add_label_argument, thinned, write_label
 from overturn.regions import coloured, legend_entries
 from overturn.result_file import SPECTRUM, open_result
-from overturn.slipping import Slipping
 from overturn.tool import parse_with_picture, parser_of
 from overturn.units import add_units_argument, axes_of_plane, expect_size, name_axes
 
@@ -80,7 +79,7 @@ def write_labels(panel, codes, labels, across, up):
             write_label(panel, piece, label.text, size=13)
 
 
-def draw_panels(panels, pixels, planes, axes, arguments, slipping):
+def draw_panels(panels, pixels, planes, axes, arguments, marks):
     """Draws the maps, each of pixels x pixels, and returns the codes in the picture."""
     present = set()
     with open_boundary(arguments.boundary, planes[0], arguments.units) as boundary:
@@ -88,26 +87,24 @@ def draw_panels(panels, pixels, planes, axes, arguments, slipping):
             codes = plane.read_regions(up, across, pixels)
             present.update(np.unique(codes))
             draw_panel(panel, codes, across, up)
-            if arguments.practice:
-                cover(panel, practice.picture(codes, plane.read_cells("peak", up.cells(pixels), across.cells(pixels))))
-            if slipping:
-                cover(panel, slipping.picture(plane, up, across, pixels))
+            for mark in marks:
+                cover(panel, mark.picture(plane, codes, up, across))
             if boundary is not None:
                 draw_boundary(panel, boundary, plane, arguments.units)
             write_labels(panel, codes, arguments.label, across, up)
     return present
 
 
-def draw_sheet(planes, columns, left_out, counts, arguments, dpi):
+def draw_sheet(planes, columns, left_out, marks, arguments, dpi):
     units, ground = arguments.units, ground_word(planes[0].file)
     axes = [axes_of_plane(plane, units, arguments.boundary is not None) for plane in planes]
     title = heading(planes) if arguments.title is None else arguments.title
     second = ",  ".join([subtitle(planes, units)] + [left_out] * bool(left_out))
     sheet = Sheet((plain(title), second), panel_titles(planes, units), columns, dpi, axes)
-    present = draw_panels(sheet.panels.flat, sheet.pixels, planes, axes, arguments, counts.get("friction"))
+    present = draw_panels(sheet.panels.flat, sheet.pixels, planes, axes, arguments, marks)
     sheet.name_axes(*name_axes(planes[0], units))
     entries = legend_entries(present, ground)
-    entries += [count.legend_entry() for count in counts.values()]
+    entries += [mark.legend_entry() for mark in marks]
     if arguments.boundary:
         entries.append(Line2D([], [], linestyle="none", marker="o", markersize=3, color="black",
                               label="flip of the verdict"))
@@ -115,12 +112,12 @@ def draw_sheet(planes, columns, left_out, counts, arguments, dpi):
     return sheet
 
 
-def draw_into(ax, plane, counts, arguments):
+def draw_into(ax, plane, marks, arguments):
     """Draws one spectrum without a legend; a point of the picture per pixel of the axes."""
     size = ax.get_window_extent()
     pixels = max(1, round(max(size.width, size.height)))
     axes = axes_of_plane(plane, arguments.units, arguments.boundary is not None)
-    draw_panels([ax], pixels, [plane], [axes], arguments, counts.get("friction"))
+    draw_panels([ax], pixels, [plane], [axes], arguments, marks)
     across, up = name_axes(plane, arguments.units)
     ax.set(xlabel=across, ylabel=up, title=arguments.title or "")
 
@@ -128,20 +125,17 @@ def draw_into(ax, plane, counts, arguments):
 def draw(path, arguments, dpi, ax=None):
     """Draws into the given axes, or without them a sheet, which is returned with the number of its spectra and the
     lines of a report: what is left out, and the counts of points that an option marks."""
-    marked = {"peak": arguments.practice, "friction": arguments.friction is not None}
-    fields = ("region", *(field for field, is_asked in marked.items() if is_asked))
-    with open_result(path, SPECTRUM, fields) as file:
+    marks = [Misjudged()] * bool(arguments.practice)
+    marks += [] if arguments.friction is None else [Slipping(arguments.friction)]
+    with open_result(path, SPECTRUM, ("region", *(mark.FIELD for mark in marks))) as file:
         expect_size(file, arguments.units)
         planes, columns, left_out = sheet_of(file, arguments, 1 if ax is not None else MOST_PANELS)
-        counts = {}
-        if marked["peak"]:
-            counts["peak"] = practice.Misjudged(planes)
-        if marked["friction"]:
-            counts["friction"] = Slipping(planes, arguments.friction)
+        for mark in marks:
+            mark.add(planes)
         if ax is not None:
-            return draw_into(ax, planes[0], counts, arguments)
-        report = [left_out] * bool(left_out) + [count.report() for count in counts.values()]
-        return draw_sheet(planes, columns, left_out, counts, arguments, dpi), len(planes), report
+            return draw_into(ax, planes[0], marks, arguments)
+        report = [left_out] * bool(left_out) + [mark.report() for mark in marks]
+        return draw_sheet(planes, columns, left_out, marks, arguments, dpi), len(planes), report
 
 
 def spectrum(result, *, motion: int | None = None, slenderness: int | None = None,
