@@ -56,6 +56,12 @@ def draw_orbit(panel, angle, rate, **style):
     arrow(panel, angle, rate, color=style["color"])
 
 
+def draw_both_ways(panel, angle, rate, **style):
+    """Draws an orbit and its mirror image, in which angle and velocity have the other signs."""
+    for sign in (1, -1):
+        draw_orbit(panel, sign * angle, sign * rate, **style)
+
+
 def frame(panel, title, reach, highest):
     panel.set(xlim=(-reach, reach), ylim=(-highest, highest))
     panel.set_title(title, fontsize=11)
@@ -87,14 +93,10 @@ def draw_pendulum(panel, block):
     for q in (0.6, 1.6, 2.6, 3.5):  # inside
         turning = 2 * np.arccos(np.sqrt(q) / 2)
         inside = turning * np.sin(np.linspace(-HALF_TURN, HALF_TURN, 401))
-        speed = np.sqrt(np.maximum(4 * np.cos(inside / 2)**2 - q, 0))
-        for sign in (1, -1):
-            draw_orbit(panel, sign * inside, sign * speed, **ORBIT)
+        draw_both_ways(panel, inside, np.sqrt(np.maximum(4 * np.cos(inside / 2)**2 - q, 0)), **ORBIT)
     for q in (-0.8, -2.2):  # full turns
-        for sign in (1, -1):
-            draw_orbit(panel, sign * angle, sign * np.sqrt(separatrix**2 - q), **ORBIT)
-    for sign in (1, -1):
-        draw_orbit(panel, sign * angle, sign * separatrix, **SEPARATRIX)
+        draw_both_ways(panel, angle, np.sqrt(separatrix**2 - q), **ORBIT)
+    draw_both_ways(panel, angle, separatrix, **SEPARATRIX)
     frame(panel, "(a) Pendulum", np.pi, 2.9)
     name_angles(panel, [(-np.pi, r"$-\pi$"), (-HALF_TURN, r"$-\pi/2$"), (0, "0"),
                         (HALF_TURN, r"$\pi/2$"), (np.pi, r"$\pi$")])
@@ -108,16 +110,14 @@ def draw_libration_orbits(panel, block, shares):
     for q in np.array(shares) * block.largest_rate**2:
         outermost = block.outermost_angle(q)
         angle = outermost * np.sin(np.linspace(-HALF_TURN, HALF_TURN, 401))
-        for sign in (1, -1):
-            draw_orbit(panel, sign * angle, sign * block.rate(angle, q), **ORBIT)
+        draw_both_ways(panel, angle, block.rate(angle, q), **ORBIT)
 
 
 def draw_toppling_orbits(panel, block, shares):
     """Draws orbits outside the separatrix, for fractions -q/q_max, that pass the top."""
     angle = np.linspace(-HALF_TURN, HALF_TURN, 801)
     for q in -np.array(shares) * block.largest_rate**2:
-        for sign in (1, -1):
-            draw_orbit(panel, sign * angle, sign * block.rate(angle, q), **ORBIT)
+        draw_both_ways(panel, angle, block.rate(angle, q), **ORBIT)
 
 
 def draw_returning_orbits(panel, block, shares):
@@ -127,8 +127,7 @@ def draw_returning_orbits(panel, block, shares):
         if turning < HALF_TURN:
             way = np.linspace(-1, 1, 801)
             angle = turning + (HALF_TURN - turning) * way**2
-            for sign in (1, -1):
-                draw_orbit(panel, sign * angle, sign * np.sign(way) * block.rate(angle, q), **ORBIT)
+            draw_both_ways(panel, angle, np.sign(way) * block.rate(angle, q), **ORBIT)
 
 
 def draw_lossless(panel, block, highest):
@@ -141,11 +140,9 @@ def draw_lossless(panel, block, highest):
     draw_toppling_orbits(panel, block, (1, 3.2))
     draw_returning_orbits(panel, block, (0.4, 1.6))
     outside = np.linspace(alpha, HALF_TURN, 401)
-    for sign in (1, -1):
-        draw_orbit(panel, sign * angle, sign * c, **SEPARATRIX)
-        draw_orbit(panel, sign * outside, -sign * block.separatrix_rate(outside), **SEPARATRIX)
-        draw_orbit(panel, sign * outside[::-1], sign * block.separatrix_rate(outside[::-1]),
-                   **SEPARATRIX)
+    draw_both_ways(panel, angle, c, **SEPARATRIX)
+    draw_both_ways(panel, outside, -block.separatrix_rate(outside), **SEPARATRIX)
+    draw_both_ways(panel, outside[::-1], block.separatrix_rate(outside[::-1]), **SEPARATRIX)
     half = alpha / 2
     mark(panel, "$A$", alpha, 0, (13, 0))
     mark(panel, "$A'$", -alpha, 0, (-13, 0))
