@@ -12,6 +12,7 @@ import tempfile
 
 import h5py
 import numpy as np
+from scipy import ndimage
 
 OVERTURN = os.environ["OVERTURN"]
 JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
@@ -19,6 +20,7 @@ COUNT = 150  # points along an axis; the paper has 100
 MOST = 0.5
 PRACTICALLY_ALL = 0.99
 VERY_FEW = 0.02
+EVERY_NEIGHBOUR = np.ones((3, 3))
 PATIENCE = 60  # [s] for one run of the program; the longest takes half a second
 
 REGIONS = ("S", "S+", "S-", "U0+", "U0-", "U1+", "U1-", "F+", "F-")
@@ -162,18 +164,8 @@ def history(figure, frequency, amplitude, *settings, samples=2):
 
 def parts(mask):
     """Returns the connected parts of a mask, including diagonals, largest first."""
-    left = set(map(tuple, np.argwhere(mask).tolist()))
-    found = []
-    while left:
-        cells = [left.pop()]
-        for row, column in cells:
-            around = {(row + i, column + j) for i in (-1, 0, 1) for j in (-1, 0, 1)} & left
-            left -= around
-            cells.extend(around)
-        part = np.zeros_like(mask)
-        part[tuple(np.transpose(cells))] = True
-        found.append(part)
-    return sorted(found, key=np.count_nonzero, reverse=True)
+    numbers, count = ndimage.label(mask, EVERY_NEIGHBOUR)
+    return sorted((numbers == number for number in range(1, count + 1)), key=np.count_nonzero, reverse=True)
 
 
 def largest_part(mask):
@@ -182,10 +174,7 @@ def largest_part(mask):
 
 def touching(one, other):
     """Returns the number of points of one next to a point of the other, including diagonals."""
-    padded = np.pad(other, 1)
-    rows, columns = other.shape
-    beside = np.any([padded[i:i + rows, j:j + columns] for i in range(3) for j in range(3)], axis=0)
-    return np.count_nonzero(one & beside)
+    return np.count_nonzero(one & ndimage.binary_dilation(other, EVERY_NEIGHBOUR))
 
 
 def share(part, whole):
