@@ -10,7 +10,7 @@ import numpy as np
 from overturn.choice import add_choice_arguments, chosen
 from overturn.motion_words import VARIABLES, column_named
 from overturn.output_file import BEGINNING, new_file
-from overturn.result_file import HISTORY, SPECTRUM, STUDY, damage_reported, open_result, text_of
+from overturn.result_file import HISTORY, SPECTRUM, STUDY, damage_reported, open_result
 from overturn.spectrum_file import COUNTED
 from overturn.tool import USAGE, ToolError, parse_with_output, parser_of
 from overturn.units import LABELS
@@ -136,10 +136,8 @@ def labels_of(file, name):
 
 
 def rows_of_events(file):
-    events = file.file["events"]
-    kinds = text_of(events["kind"], "flag_meanings").split()
-    columns = {"time": events["time"][:], "kind": np.array(kinds, object)[events["kind"][:]],
-               **{name: events[name][:] for name in events if name.endswith(("_before", "_after"))}}
+    events = file.events()
+    columns = {"time": events["time"], "kind": events["kind"], **events}
     yield [column_named(file.attrs, name) for name in columns]
     yield from zip(*(column.tolist() for column in columns.values()))
 

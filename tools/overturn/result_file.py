@@ -109,6 +109,12 @@ class Result(Mapping):
         """Returns a text about the job; empty if there is none."""
         return self.run[name][:].tobytes().decode(errors="replace") if name in self.run else ""
 
+    def events(self):
+        """Returns the values of every variable of the events of a history, by name; kinds are words."""
+        variables = {name: data for name, data in self.file["events"].items() if is_variable(data)}
+        kinds = np.array(text_of(variables["kind"], "flag_meanings").split(), object)
+        return {name: kinds[data[:]] if name == "kind" else data[:] for name, data in variables.items()}
+
     @property
     def sizes(self):
         """The length of every dimension, by name."""

@@ -16,7 +16,7 @@ from overturn.motion_words import worded
 from overturn.output_file import save
 from overturn.plot.headings import Heading
 from overturn.regions import REGIONS, UNDECIDED, meaning_of
-from overturn.result_file import HISTORY, damage_reported, open_result, text_of
+from overturn.result_file import HISTORY, damage_reported, open_result
 from overturn.spectrum_file import EQUIVALENTS, JOB, PHYSICAL, RATES, STRENGTHS
 from overturn.ticks import name_ticks
 from overturn.tool import ToolError, parse_with_picture, parser_of
@@ -112,12 +112,10 @@ class History:
         self.values = {name: factors[name] * file[name][:][shown] for name, _, _ in self.panels}
         if has_friction:
             self.values["friction"] = of_standing(self.values["friction"], file["angle"][:][shown], sides)
-        events = file.file["events"]
-        kinds = text_of(events["kind"], "flag_meanings").split()
-        self.events = [(when, kinds[kind], angle)
-                       for when, kind, angle in zip(events["time"][:] / per_time, events["kind"][:],
-                                                    events["angle_after"][:] / per_angle)
-                       if start <= when <= self.time[-1]]
+        events = file.events()
+        self.events = [(when, kind, angle) for when, kind, angle in zip(
+            events["time"] / per_time, events["kind"], events["angle_after"] / per_angle)
+            if start <= when <= self.time[-1]]
         self.alphas = -sides[-1] / per_angle, slenderness / per_angle
         self.has_two_sides = len(sides) > 1
         self.largest_rate = rate * (slenderness if is_linear(file) else 2 * np.sin(slenderness / 2))
