@@ -30,25 +30,11 @@ if TYPE_CHECKING:
     from overturn.records import read_record as read_record
     from overturn.tool import ToolError as ToolError
 
-_MODULE_OF = {
-    "evaluate": "evaluation",
-    "Outcome": "evaluation",
-    "Verdict": "evaluation",
-    "open": "datasets",
-    "run": "program",
-    "check": "program",
-    "topple": "program",
-    "ProgramError": "program",
-    "fragility": "fragility_curve",
-    "Fragility": "fragility_curve",
-    "supported_share": "friction",
-    "floor_motion": "floors",
-    "FloorMotion": "floors",
-    "read_record": "records",
-    "Record": "records",
-    "RecordError": "records",
-    "ToolError": "tool",
-}
+_NAMES = {"evaluation": ("evaluate", "Outcome", "Verdict"), "datasets": ("open",),
+          "program": ("run", "check", "topple", "ProgramError"), "fragility_curve": ("fragility", "Fragility"),
+          "friction": ("supported_share",), "floors": ("floor_motion", "FloorMotion"),
+          "records": ("read_record", "Record", "RecordError"), "tool": ("ToolError",)}
+_MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
 _MODULES = ("plot", "risk")
 __all__ = [*_MODULE_OF, *_MODULES]
 
