@@ -198,7 +198,7 @@ def subtitle(planes, units=JOB):
 
 def unfinished_words(file):
     """Returns the note on missing tiles, if there are any."""
-    done, number = np.count_nonzero(file.are_computed), file.are_computed.size
+    done, number = int(np.count_nonzero(file.are_computed)), file.are_computed.size
     return [f"unfinished: {done} of {number} {file.PARTS} computed"] * (done < number)
 
 

@@ -47,7 +47,7 @@ class Tiles:
         if getattr(checksums, "dtype", None) != "uint64" or checksums.ndim != 1:
             raise OSError("it lacks run/checksum, which marks the computed tiles")
         #: lengths of a tile along the dimensions of the fields, by name
-        self.sides = dict(zip(text_of(checksums, "dimensions").split(), checksums.attrs.get("tile_shape", ())))
+        self.sides = dict(zip(text_of(checksums, "dimensions").split(), map(int, checksums.attrs.get("tile_shape", ()))))
         numbers = [-(-sizes[name] // side) for name, side in self.sides.items()]
         if len(checksums) != math.prod(numbers):
             raise OSError(f"it has {len(checksums)} checksums, which is not its number of tiles")
