@@ -49,9 +49,9 @@ class Misjudged(Marks):
 
     def picture(self, plane, codes, up, across):
         """Returns RGBA of a picture of the plane with these codes, transparent except at marked points."""
-        pixels = len(codes)
+        peak = plane.read_cells("peak", up.cells(len(codes)), across.cells(len(codes)))
         rgba = np.zeros((*codes.shape, 4))
-        rgba[self.are_marked(codes, plane.read_cells("peak", up.cells(pixels), across.cells(pixels)))] = colors.to_rgba(COLOUR)
+        rgba[self.are_marked(codes, peak)] = colors.to_rgba(COLOUR)
         return rgba
 
     def report(self):
