@@ -75,8 +75,7 @@ def parts_of(file, dimensions, choices):
 def values_at(file, name, dimensions, part):
     """Returns the values of a variable at some points."""
     variable = file[name]
-    places = dict(zip(dimensions, part))
-    values = variable[tuple(places[each] for each in variable.dimensions)]
+    values = variable.at(dict(zip(dimensions, part)))
     order = sorted(range(values.ndim), key=lambda axis: dimensions.index(variable.dimensions[axis]))
     lengths = [each.stop - each.start for each in part]
     shape = [length if each in variable.dimensions else 1 for each, length in zip(dimensions, lengths)]

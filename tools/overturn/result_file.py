@@ -38,6 +38,10 @@ class Variable:
             values[self.tiles.are_missing(self, index).reshape(values.shape)] = self.data.fillvalue
         return values
 
+    def at(self, places):
+        """Returns an array; `places` has an integer or a slice for some of the dimensions, by name."""
+        return self[tuple(places.get(name, slice(None)) for name in self.dimensions)]
+
 
 class Tiles:
     """Boxes of points, which are computed if they have a checksum."""

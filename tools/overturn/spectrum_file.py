@@ -30,9 +30,7 @@ class Plane:
 
     def read(self, name, rows=slice(None)):
         """Reads some rows of a field."""
-        index = {**self.index, self.up: rows}
-        dimensions = self.file[name].dimensions
-        values = self.file[name][tuple(index.get(each, slice(None)) for each in dimensions)]
+        dimensions, values = self.file[name].dimensions, self.file[name].at({**self.index, self.up: rows})
         if self.across is None:
             return values[:, None]
         return values.T if dimensions.index(self.across) < dimensions.index(self.up) else values
@@ -91,16 +89,11 @@ class Plane:
         if not self.knows(name, [dimension]):
             raise ToolError(f"\"{self.file.filename}\" has no {name} along {dimension} alone. Draw it in the units of "
                             "the job, or choose other axes.", USAGE)
-        coordinate = self.file[name]
-        values = coordinate[tuple(self.index.get(each, slice(None)) for each in coordinate.dimensions)]
-        return np.broadcast_to(values, self.file.sizes[dimension])
+        return np.broadcast_to(self.file[name].at(self.index), self.file.sizes[dimension])
 
     def value(self, name):
         """Returns the only value of a coordinate in this plane, or None."""
-        if not self.knows(name):
-            return None
-        coordinate = self.file[name]
-        return coordinate[tuple(self.index[each] for each in coordinate.dimensions)].item()
+        return self.file[name].at(self.index).item() if self.knows(name) else None
 
     def quantities(self, units=JOB):
         """Returns the quantities on the horizontal and the vertical axis; vertical ones of a boundary are those of
