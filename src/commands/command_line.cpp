@@ -9,6 +9,7 @@
 #include "overturn/problem/quantity.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/mapped.hpp"
 #include "overturn/text/nearest_name.hpp"
 
 #include <CLI/CLI.hpp>
@@ -211,6 +212,12 @@ void add_folder(CLI::App& command, std::string& folder)
     command.add_option("FOLDER", folder, "Folder of the result files")->capture_default_str();
 }
 
+void add_keys_arguments(CLI::App& command, KeysOptions& options)
+{
+    command.add_option("KEY", options.name, "Table or key of a job file; default: all");
+    command.add_flag("--markdown", options.as_markdown, "Print rows of a table in Markdown");
+}
+
 /// The parser of the command line, and the subcommand that it finds.
 struct Parser {
     CLI::App app{"Overturning spectra of rocking blocks."};
@@ -251,6 +258,8 @@ Parser::Parser()
         help::history, history, add_history_arguments);
     add("topple", "Answer whether one block topples, and at which PGA", help::topple, topple,
         add_topple_arguments);
+    add("keys", "Print the keys of job files: type, range, default and meaning", help::keys, keys,
+        add_keys_arguments);
     add("info", "Print a summary of a result file", help::info, info, add_result_file);
     add("verify", "Check a result file for damage", help::verify, verify, add_result_file);
     add("doctor", "Print what a bug report should contain about this machine", help::doctor, doctor,
@@ -352,7 +361,10 @@ std::string bash_completion(const CLI::App& program)
         for (const CLI::Option* option : command->get_options()) {
             const std::string value = value_of(*option);
             if (option->get_positional()) {
-                ending = value == "JOB" ? "toml" : "h5";
+                ending = value == "JOB" ? "toml" : value == "KEY" ? "" : "h5";
+                words += value != "KEY"
+                             ? ""
+                             : fmt::format("{} ", fmt::join(mapped(all_keys(), &Key::dotted), " "));
                 continue;
             }
             const std::vector<std::string> names =

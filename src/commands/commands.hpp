@@ -70,6 +70,13 @@ int topple(const ToppleOptions& options);
 /// system of the folder, that of the result files.
 int doctor(const std::string& folder);
 
+/// Prints the keys of job files: those of a table, or of this name, or all.
+struct KeysOptions {
+    std::string name;
+    bool as_markdown = false; ///< rows of a table
+};
+int keys(const KeysOptions& options);
+
 /// Prints a summary of a result file, and how to resume it if it is unfinished.
 int info(const std::string& path);
 

@@ -65,6 +65,14 @@ inline constexpr const char* check = R"(Example:
 Prints the motion, the axes, alpha, R, p and r_max of the block, the friction coefficients that
 lifting and impacts need, points, bytes and the estimated time of overturn run.)";
 
+inline constexpr const char* keys = R"(Examples:
+  overturn keys
+  overturn keys numerics
+  overturn keys pga
+
+Prints the type, range, default and meaning of the keys of job files: of all, of those of a table,
+or of one. Keys that describe the block may be in [block] as well as in [plane].)";
+
 inline constexpr const char* doctor = R"(Examples:
   overturn doctor
   overturn doctor /scratch/results > report.txt)";

@@ -87,7 +87,7 @@ std::vector<Field> read_fields(const Entry& job)
 {
     const auto entry = find(table_of(job, "output"), "fields");
     if (!entry) {
-        return {Field::region};
+        return default_fields;
     }
     const std::vector<Field> known = spectrum_fields();
     const std::vector<std::string_view> names = mapped(known, &Field::name);

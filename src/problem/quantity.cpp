@@ -4,6 +4,7 @@
 #include "overturn/problem/coordinates.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cassert>
@@ -120,9 +121,9 @@ constexpr Quantity quantities[] = {
     {"center_offset", "m", Role::block, "offset of the centre of mass", finite,
      "It is the distance of the centre of mass from the middle of the base in "
      "metres, positive towards the side plus.",
-     {.shapes = shape::lengths | shape::two_sides}, {{{}, zero, two}}},
+     {.shapes = shape::lengths | shape::two_sides, .standard = "0"}, {{{}, zero, two}}},
     {"center_height", "m", Role::block, "height of the centre of mass", positive, of_length,
-     {.shapes = shape::lengths | shape::two_sides},
+     {.shapes = shape::lengths | shape::two_sides, .standard = "half the height"},
      {{{"half_height"}, [](auto&, auto& of) { return of[0]; }, two}}},
     {"slenderness_plus", "rad", Role::block, "slenderness of the side plus", angles, of_angle,
      {.shapes = shape::sides | shape::two_sides, .is_stored = true},
@@ -140,12 +141,13 @@ constexpr Quantity quantities[] = {
      {{{"base_minus", "center_height"}, distance, two}}},
     {"radius_of_gyration", "m", Role::block, "radius of gyration", positive,
      "It is that about the centre of mass in metres.",
-     {.shapes = shape::lengths | shape::sides | shape::two_sides},
+     {.shapes = shape::lengths | shape::sides | shape::two_sides,
+      .standard = "that of a box, sqrt((width^2 + height^2) / 12)"},
      {{{"half_width", "half_height"},
        [](auto&, auto& of) { return std::sqrt((of[0] * of[0] + of[1] * of[1]) / 3); }, two}}},
     {"incline", "rad", Role::block, "incline of the base", inclines,
      "It is the angle of the base in radians, positive if the side plus is downhill.",
-     {.shapes = shape::lengths | shape::two_sides},
+     {.shapes = shape::lengths | shape::two_sides, .standard = "0"},
      {{{"size_plus", "slenderness_plus", "size_minus", "slenderness_minus"}, implied_incline,
        two}, {{}, zero, two}}},
     {"slenderness", "rad", Role::block, "slenderness of the block, arctan(b/h)", angles,
@@ -184,7 +186,7 @@ constexpr Quantity quantities[] = {
      {{{"pga", "record_pga"}, ratio, any, record}}},
     {"pga", "1", Role::strength, "peak ground acceleration, over g", not_negative,
      "It is the peak acceleration of the motion over g.",
-     {.same_as = "amplitude", .is_stored = true, .printed_units = "g"},
+     {.same_as = "amplitude", .is_stored = true, .own_units = "g"},
      {{{"amplitude", "uplift_pga"}, product, any, pulse},
       {{"scale", "record_pga"}, product, any, record}}},
     {"frequency", "1", Role::rate, "frequency of the pulse, omega_p / p", positive,
@@ -199,7 +201,7 @@ constexpr Quantity quantities[] = {
       {{"pulse_frequency"}, [](auto&, auto& of) { return 1 / of[0]; }, two, pulse}}},
     {"pulse_frequency", "s-1", Role::rate, "frequency of the pulse", positive,
      "It is the frequency of the pulse in Hz.",
-     {.same_as = "frequency", .motion = pulse, .printed_units = "Hz"}},
+     {.same_as = "frequency", .motion = pulse, .own_units = "Hz"}},
     {"frequency_parameter_minus", "s-1", Role::derived, "frequency parameter of the side minus",
      positive, "", {.is_stored = true},
      {{{"size_minus", "radius_of_gyration"}, frequency_parameter_of_side, two}}},
@@ -319,6 +321,26 @@ bool exclude_each_other(std::string_view one, std::string_view other)
     const unsigned shapes = quantity(one).scope.shapes & ~shape::two_sides;
     const unsigned others = quantity(other).scope.shapes & ~shape::two_sides;
     return are_equivalent(one, other) || (shapes != 0 && others != 0 && (shapes & others) == 0);
+}
+
+std::string pulses_with(ShapeNumber number)
+{
+    std::vector<std::string_view> names;
+    for (std::size_t kind = 0; kind < pulses.size(); ++kind) {
+        if (has_number(PulseKind(kind), number)) {
+            names.push_back(pulses[kind].name);
+        }
+    }
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string Quantity::printed_units() const
+{
+    return std::string(!scope.own_units.empty() ? scope.own_units
+                       : units == "1"           ? ""
+                       : units == "s-1"         ? "1/s"
+                       : units == "m s-2"       ? "m/s2"
+                                                : units);
 }
 
 std::string Quantity::refusal_of(double value) const

@@ -11,18 +11,6 @@ namespace overturn {
 
 namespace {
 
-/// The names of the pulses that have this number.
-std::string pulses_with(ShapeNumber number)
-{
-    std::vector<std::string_view> names;
-    for (std::size_t kind = 0; kind < pulses.size(); ++kind) {
-        if (has_number(PulseKind(kind), number)) {
-            names.push_back(name_of(PulseKind(kind)));
-        }
-    }
-    return fmt::format("{}", fmt::join(names, ", "));
-}
-
 std::string_view name_of(ShapeNumber number)
 {
     return std::find_if(shape_numbers.begin(), shape_numbers.end(),

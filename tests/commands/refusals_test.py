@@ -13,7 +13,7 @@ A_HISTORY = ["history", "small.toml", "--at", "frequency=3,amplitude=1.5,restitu
 
 class TheCommandLine(Scratch):
     def test_help_shows_an_example_of_each_subcommand(self):
-        for subcommand in ("run", "check", "info"):
+        for subcommand in ("run", "check", "info", "keys"):
             self.assert_exit(self.overturn("--help"), 0, f"overturn {subcommand} ")
             self.assert_exit(self.overturn(subcommand, "--help"), 0, f"overturn {subcommand} ")
 
@@ -33,6 +33,17 @@ class TheCommandLine(Scratch):
         self.assert_exit(doctor('echo /another/python3; echo "version 3.9.1; lacks numpy"'), 0,
                          "Python ", "overturn._core", "python3 /another/python3: version 3.9.1; lacks numpy")
         self.assert_exit(doctor("exit 1"), 0, "python3 cannot be started")
+
+    def test_keys_prints_those_of_a_table_or_of_a_name(self):
+        every = self.overturn("keys")
+        self.assert_exit(every, 0, "scene.pulse", "numerics.tolerance", "plane.pga", "output.fields")
+        tolerance = self.overturn("keys", "tolerance")
+        self.assert_exit(tolerance, 0, "numerics.tolerance\n", "number: [1e-14, 0.01]; default: 1e-09; 0.0001 with resolve")
+        self.assertEqual(tolerance.stdout, self.overturn("keys", "numerics.tolerance").stdout)
+        self.assertIn(tolerance.stdout, every.stdout)
+        self.assertEqual(len(self.overturn("keys", "numerics", "--markdown").stdout.splitlines()), 5)
+        self.assert_refused(2, ['unknown key "numerics.tolerence". Did you mean "numerics.tolerance"?'], "keys",
+                            "numerics.tolerence")
 
     def test_help_is_a_subcommand_too(self):
         for words in ((), ("run",)):

@@ -39,6 +39,10 @@ int topple(const ToppleOptions&)
 {
     refuse_to_run();
 }
+int keys(const KeysOptions&)
+{
+    refuse_to_run();
+}
 int info(const std::string&)
 {
     refuse_to_run();

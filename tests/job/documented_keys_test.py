@@ -1,31 +1,28 @@
 #!/usr/bin/env python3
-"""documented_keys_test.py PROGRAM DOCS: the tables of keys in jobs.md and records.md, and that of fields in
-results.md, have exactly the keys and fields that the program knows."""
+"""documented_keys_test.py PROGRAM DOCS [--write]: the tables of keys in jobs.md are those that the program prints, and
+the table of fields in results.md has exactly the fields that the program knows. --write replaces the tables of keys."""
 
 import pathlib
 import re
 import subprocess
 import sys
 
-PARTS = {"values", "first", "last", "count", "spacing"}  # of an axis
+REGION = re.compile(r"(<!-- keys: ([a-z ]+) -->\n).*?(<!-- end -->)", re.DOTALL)
+HEADER = "| key | type | unit | range | default | meaning |\n| --- | --- | --- | --- | --- | --- |\n"
 
 
-def known_keys(program):
-    completion = subprocess.run([program, "--bash-completion"], capture_output=True, text=True, check=True).stdout
-    keys = {key for key in re.findall(r"(?<![\w.])(title|[a-z]+(?:\.[a-z_]+)+)=", completion)}
-    return {key for key in keys if key.split(".")[-1] not in PARTS}
+def rows_of(program, table):
+    return subprocess.run([program, "keys", table, "--markdown"], capture_output=True, text=True, check=True).stdout
 
 
-def documented_keys(folder):
-    rows = "".join(line for page in ("jobs.md", "records.md")
-                   for line in (folder / page).read_text().splitlines(True) if not line.startswith("    "))
-    return set(re.findall(r"`((?:scene|plane|block|blocks|numerics|output)\.[a-z_.]+)`", rows)) | {"title"}
+def with_tables(program, text):
+    return REGION.sub(lambda found: "{}\n{}{}\n{}".format(
+        found[1], HEADER, "".join(rows_of(program, table) for table in found[2].split()), found[3]), text)
 
 
-def known_fields(program, folder):
-    refusal = subprocess.run([program, "check", folder.parent / "jobs" / "smoke.toml", "--set",
-                              'output.fields=["none"]'], capture_output=True, text=True).stderr
-    return set(re.split(r",\s*|\.\s*$", refusal.split("Allowed: ")[1])) - {""} | {"evaluated"}  # added by itself
+def known_fields(program):
+    row = rows_of(program, "output.fields")
+    return set(re.findall(r'"(\w+)"', row.split(" | ")[3])) | {"evaluated"}  # added by itself
 
 
 def documented_fields(folder):
@@ -34,16 +31,18 @@ def documented_fields(folder):
 
 
 def main():
-    known, documented = known_keys(sys.argv[1]), documented_keys(pathlib.Path(sys.argv[2]))
-    known = {key for key in known if not key.startswith("block.")}  # as in [plane]
-    documented = {key for key in documented if not key.startswith("block.")}
-    folder = pathlib.Path(sys.argv[2])
-    known |= known_fields(sys.argv[1], folder)
-    documented |= documented_fields(folder)
-    for text, keys in (("not documented", known - documented), ("unknown to the program", documented - known)):
-        for key in sorted(keys):
-            print(f"{key} is {text}")
-    if len(known) < 30 or known != documented:
+    program, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    page = folder / "jobs.md"
+    current = with_tables(program, page.read_text())
+    if "--write" in sys.argv:
+        page.write_text(current)
+    all_rows = subprocess.run([program, "keys", "--markdown"], capture_output=True, text=True, check=True).stdout
+    missing = [row for row in all_rows.splitlines() if row not in page.read_text()]
+    fields = known_fields(program) ^ documented_fields(folder)
+    if missing or fields or current != page.read_text() or len(all_rows.splitlines()) < 40:
+        print(*missing, f"fields of one only: {fields}" * bool(fields),
+              f"The tables of {page} are not those of the program; {sys.argv[0]} PROGRAM DOCS --write replaces them.",
+              sep="\n")
         sys.exit(1)
 
 

@@ -1,8 +1,8 @@
 // The keys of a job: one table, from which reading, --set, completion and the documentation follow.
 #pragma once
 
+#include "overturn/problem/fields.hpp"
 #include "overturn/problem/quantity.hpp"
-#include "overturn/problem/scene.hpp"
 
 #include <array>
 #include <optional>
@@ -11,6 +11,27 @@
 #include <vector>
 
 namespace overturn {
+
+/// A key of a job file.
+struct Key {
+    std::string_view table; ///< empty: at the top
+    std::string_view name;
+    Under motion; ///< that it describes
+    std::string_view type;
+    std::string standard; ///< the value of a missing key; empty: none
+    std::string meaning;
+    std::string allowed{}; ///< range or words; empty: any
+    std::string units{};   ///< of a number; empty: dimensionless
+
+    std::string dotted() const; ///< such as "scene.pulse"
+};
+inline constexpr std::string_view table_type = "table";
+
+/// All keys; those of [block] are in [plane], too.
+const std::vector<Key>& all_keys();
+
+/// The fields of a job that does not list them.
+inline const std::vector<Field> default_fields{Field::region};
 
 /// The names of the keys of a table; of the job if it is empty. motion: only those that belong to
 /// a pulse, or to a record.

@@ -24,6 +24,10 @@ enum class Role {
     setting    ///< of the pulse or of the computation; the same at all points
 };
 
+template <>
+inline constexpr std::array<std::string_view, 8> names_of<Role>{
+    "motion", "direction", "block", "loss", "strength", "rate", "derived", "setting"};
+
 /// A set of numbers, without NaN.
 struct Interval {
     std::string_view text; ///< such as "(0, 1]"
@@ -64,7 +68,8 @@ struct Quantity {
         unsigned shapes = 0;              ///< see shape
         Under motion = Under::any_motion; ///< under which a job may give it
         bool is_stored = false;           ///< also if it is not given but follows from what is
-        std::string_view printed_units{}; ///< beside numbers in sentences, if not `units`
+        std::string_view own_units{};     ///< beside numbers in sentences, if not `units`
+        std::string_view standard{};      ///< in words: the value if a job gives none
     } scope{};
 
     Derivation follows[3]{}; ///< in this order; the first possible one applies
@@ -78,6 +83,9 @@ struct Quantity {
     {
         return is_coordinate() && scope.motion != (is_recorded ? Under::pulse : Under::record);
     }
+
+    /// The units beside a number in sentences; empty if there are none.
+    std::string printed_units() const;
 
     /// Why a value that is not allowed is refused, as a text that follows the name.
     std::string refusal_of(double value) const;
@@ -107,6 +115,9 @@ std::span<const Derivation> derivations_of(std::string_view coordinate);
 
 /// Whether the two are equal, or one follows from the other.
 bool are_equivalent(std::string_view one, std::string_view other);
+
+/// The names of the pulses that have this number of their shape, which is a setting.
+std::string pulses_with(ShapeNumber number);
 
 /// Whether a point is described by at most one of these two quantities: they are
 /// equivalent, or describe a block in different ways.

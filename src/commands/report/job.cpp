@@ -177,16 +177,6 @@ std::string unused_columns(const Job& job)
     return printable(fmt::format("{}", fmt::join(names, ", ")));
 }
 
-/// The unit of a quantity after a number: begins with a blank, or is empty.
-std::string unit_text(const Quantity& quantity)
-{
-    const std::string_view printed = quantity.scope.printed_units;
-    return !printed.empty()          ? fmt::format(" {}", printed)
-           : quantity.units == "1"   ? ""
-           : quantity.units == "s-1" ? " 1/s"
-                                     : fmt::format(" {}", quantity.units);
-}
-
 void print_pulse(const Scene& scene)
 {
     print_row("pulse", name_of(scene.pulse));
@@ -222,8 +212,9 @@ void print_coordinates(const Grid& grid)
 {
     for (const Column* column : grid.outside_table()) {
         const auto& [quantity, values] = *column;
+        const std::string units = quantity->printed_units();
         print_axis(quantity->name, values.size(), values.first(), values.last(),
-                   unit_text(*quantity));
+                   units.empty() ? "" : " " + units);
     }
 }
 
