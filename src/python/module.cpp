@@ -6,6 +6,8 @@
 #include "overturn/record/read_record.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/is_one_of.hpp"
+#include "overturn/text/mapped.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -160,42 +162,75 @@ Grid grid_of_columns(const Scene& scene, const Columns& columns)
     return grid_of(scene, std::move(given));
 }
 
+/// The fields of these names, which must be possible for the scene and the numerics.
+std::vector<Field> fields_named(const std::vector<std::string>& names, const Scene& scene,
+                                const Numerics& numerics)
+{
+    const std::vector<Field> known = spectrum_fields();
+    return mapped(names, [&](const std::string& name) {
+        const auto found = std::ranges::find(known, name, &Field::name);
+        if (found == known.end()) {
+            throw std::invalid_argument(
+                fmt::format("fields contains \"{}\", which is not one of {}.", name,
+                            fmt::join(mapped(known, &Field::name), ", ")));
+        }
+        if (scene.theory == Theory::linear &&
+            is_one_of(&Outputs::contact, traits_of(*found).needs)) {
+            throw std::invalid_argument(fmt::format(
+                "fields contains \"{}\", but the linear theory has no forces of the contact.",
+                name));
+        }
+        if (*found == Field::error && !knows_errors(numerics)) {
+            throw std::invalid_argument(fmt::format(
+                "tolerance = {} is too loose for the field \"error\" with \"rk45\". Use at "
+                "most {}, or the method \"taylor\".",
+                numerics.tolerance, largest_rk45_tolerance_with_error));
+        }
+        return *found;
+    });
+}
+
 /// The fields of every block by name, and what looks like a mistake in the units as "warning".
 /// Computed with the widest kernel and in the tiles of `overturn run`, so that the bits are those
 /// of a list job. Columns without rows are not checked.
-py::dict evaluate(const Scene& scene, const Numerics& numerics, const Columns& columns)
+py::dict evaluate(const Scene& scene, const Numerics& numerics, const Columns& columns,
+                  const std::vector<std::string>& names)
 {
     const py::ssize_t size = columns.empty() ? 0 : columns.begin()->second.size();
-    py::array_t<std::uint8_t> region(size), status(size);
-    py::array_t<double> peak(size), margin(size);
+    const std::vector<Field> fields = fields_named(names, scene, numerics);
+    std::vector<py::array> arrays = mapped(fields, [&](Field field) {
+        return std::visit(
+            [&](auto value) -> py::array { return py::array_t<decltype(value)>(size); },
+            fill_value(field));
+    });
     std::string warning;
     if (size > 0) {
-        const auto copy = [](const FieldValues& from, auto* to) {
-            std::ranges::copy(std::get<std::vector<std::remove_pointer_t<decltype(to)>>>(from), to);
-        };
         const py::gil_scoped_release released;
         const Kernel kernel = widest_kernel();
         const DropRequested handle_signals = signal_check();
-        const Problem problem{scene,
-                              grid_of_columns(scene, columns),
-                              numerics,
-                              Product::spectrum,
-                              {Field::region, Field::status, Field::peak, Field::margin}};
+        const Problem problem{scene, grid_of_columns(scene, columns), numerics, Product::spectrum,
+                              fields};
         const Tiling tiling = tiling_of(problem);
         for (std::int64_t number = 0; number < tiling.size(); ++number) {
             const Tile tile = tiling[number];
             const TileFields computed = compute_tile(problem, tile, kernel, handle_signals);
-            const std::int64_t first = tile.begin[0];
-            copy(computed.values[0], region.mutable_data() + first);
-            copy(computed.values[1], status.mutable_data() + first);
-            copy(computed.values[2], peak.mutable_data() + first);
-            copy(computed.values[3], margin.mutable_data() + first);
+            for (std::size_t i = 0; i < fields.size(); ++i) {
+                std::visit(
+                    [&]<class Value>(const std::vector<Value>& values) {
+                        std::ranges::copy(values, static_cast<Value*>(arrays[i].mutable_data()) +
+                                                      tile.begin[0]);
+                    },
+                    computed.values[i]);
+            }
         }
         warning = implausible_values(scene, problem.grid);
     }
-    using namespace py::literals;
-    return py::dict("region"_a = region, "status"_a = status, "peak"_a = peak, "margin"_a = margin,
-                    "warning"_a = warning);
+    py::dict outcome;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        outcome[py::str(names[i])] = arrays[i];
+    }
+    outcome["warning"] = warning;
+    return outcome;
 }
 
 /// A component of a file: a dictionary of the members of Record in tools/overturn/records.py, and
@@ -251,6 +286,39 @@ py::dict regions(bool (*is_of_kind)(Region))
     return codes;
 }
 
+/// The fields of a spectrum by name.
+py::dict all_spectrum_fields()
+{
+    using namespace py::literals;
+    py::dict rows;
+    for (const Field field : spectrum_fields()) {
+        const FieldTraits& row = traits_of(field);
+        rows[py::str(row.name)] =
+            py::dict("type"_a = name_of(row.type), "long_name"_a = row.long_name,
+                     "units"_a = row.units, "comment"_a = row.comment);
+    }
+    return rows;
+}
+
+/// The quantities that may differ from point to point, by name; `motion`: under which.
+py::dict all_coordinates()
+{
+    using namespace py::literals;
+    py::dict rows;
+    for (const Quantity& row : all_quantities()) {
+        if (row.is_coordinate() && row.role != Role::motion) {
+            rows[py::str(row.name)] =
+                py::dict("long_name"_a = row.long_name, "units"_a = row.printed_units(),
+                         "allowed"_a = row.interval.text, "same_as"_a = row.scope.same_as,
+                         "default"_a = row.scope.standard, "role"_a = name_of(row.role),
+                         "motion"_a = row.scope.motion == Under::pulse    ? "pulse"
+                                      : row.scope.motion == Under::record ? "record"
+                                                                          : "any");
+        }
+    }
+    return rows;
+}
+
 PYBIND11_MODULE(_core, module)
 {
     py::class_<Scene>(module, "Scene");
@@ -263,6 +331,8 @@ PYBIND11_MODULE(_core, module)
     module.def("component_of", &component_of);
     // Earlier versions of pybind11 exchange wrong values with NumPy 2, without an error.
     module.attr("supports_numpy_2") = PYBIND11_VERSION_HEX >= 0x020C0000;
+    module.attr("fields") = all_spectrum_fields();
+    module.attr("coordinates") = all_coordinates();
     module.attr("safe_regions") = regions(&is_safe);
     module.attr("unsafe_regions") = regions(&is_unsafe);
 

@@ -10,6 +10,7 @@ import warnings
 
 import numpy as np
 import overturn
+from overturn import core
 
 JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
 FIELDS = ["region", "status", "peak", "margin"]
@@ -25,9 +26,9 @@ def random_blocks(count, seed=1):
 
 
 class WithTheSameBits(unittest.TestCase):
-    def assert_same(self, outcome, spectrum, kinds=2):
+    def assert_same(self, outcome, spectrum, kinds=2, fields=FIELDS):
         """Compares all fields bit by bit; a comparison of one region only would show little."""
-        for field in FIELDS:
+        for field in fields:
             stored = spectrum[field].values
             self.assertEqual(outcome[field].reshape(stored.shape).tobytes(), stored.tobytes(), field)
         self.assertGreaterEqual(len(np.unique(outcome["region"])), kinds)
@@ -92,6 +93,30 @@ class TheBitsOfAPlane(WithTheSameBits):
                                     pulse_period=spectrum.pulse_period.values, pga=spectrum.pga.values[:, None],
                                     pulse="one_cosine")
         self.assert_same(outcome, spectrum, kinds=4)
+
+
+class EveryField(WithTheSameBits):
+    PLANE = {"slenderness": 0.2, "restitution": 0.8}
+
+    def test_has_the_bits_of_a_plane(self):
+        fields = [*core.fields]
+        spectrum = overturn.run({
+            "scene": {"pulse": "one_sine"}, "numerics": {"method": "taylor"}, "output": {"fields": fields},
+            "plane": {"frequency": {"first": 0.7, "last": 8, "count": 12},
+                      "amplitude": {"first": 0.5, "last": 12, "count": 11}, **self.PLANE}})
+        outcome = overturn.evaluate(**self.PLANE, amplitude=spectrum.amplitude.values[:, None],
+                                    frequency=spectrum.frequency.values, fields=fields)
+        self.assertEqual([*outcome], ["verdict", *fields])
+        self.assert_same(outcome, spectrum, kinds=4, fields=fields)
+
+    def test_is_refused_if_it_is_unknown_or_impossible(self):
+        motion = {"amplitude": 2, "frequency": 1}
+        for arguments, text in (({"fields": ["peaks"]}, 'fields contains "peaks", which is not one of region, angle'),
+                                ({"fields": "peak"}, "fields = 'peak' is a word"),
+                                ({"fields": ["normal"], "theory": "linear"}, "linear theory has no forces"),
+                                ({"fields": ["error"], "method": "rk45", "tolerance": 1e-3}, "is too loose")):
+            with self.assertRaisesRegex(ValueError, text):
+                overturn.evaluate(**self.PLANE, **motion, **arguments)
 
 
 class TheBitsUnderARecord(WithTheSameBits):

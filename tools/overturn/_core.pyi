@@ -1,9 +1,9 @@
 """The compiled module; evaluation.py and records.py call it with checked arguments."""
 
 from collections.abc import Mapping, Sequence
-from typing import TypedDict
+from typing import Any, TypedDict
 
-from numpy import float64, uint8
+from numpy import float64
 from numpy.typing import ArrayLike, NDArray
 
 class Scene: ...
@@ -14,12 +14,20 @@ class GivenError(ValueError):
 
 class RecordError(ValueError): ...
 
-class _Fields(TypedDict):
-    region: NDArray[uint8]
-    status: NDArray[uint8]
-    peak: NDArray[float64]
-    margin: NDArray[float64]
-    warning: str
+class _Field(TypedDict):
+    type: str
+    long_name: str
+    units: str
+    comment: str
+
+class _Coordinate(TypedDict):
+    long_name: str
+    units: str
+    allowed: str
+    same_as: str
+    default: str
+    role: str
+    motion: str
 
 class _Component(TypedDict):
     name: str
@@ -33,6 +41,8 @@ class _Component(TypedDict):
     remarks: list[str]
 
 supports_numpy_2: bool
+fields: dict[str, _Field]
+coordinates: dict[str, _Coordinate]
 safe_regions: dict[str, int]
 unsafe_regions: dict[str, int]
 
@@ -42,6 +52,6 @@ def scene_of_record(horizontal: ArrayLike, second: ArrayLike, upwards: ArrayLike
 def with_motion_of(scene: Scene, motion_of: str, /) -> Scene: ...
 def numerics(scene: Scene, method: str, tolerance: float | None, resolve: bool, /) -> Numerics: ...
 def evaluate(scene: Scene, numerics: Numerics, columns: Mapping[str, Sequence[float] | NDArray[float64]],
-             /) -> _Fields: ...
+             fields: Sequence[str], /) -> dict[str, Any]: ...
 def component_of(path: str, choice: int | str, time_step: float | None, units: str | None, gravity: float,
                  /) -> _Component: ...

@@ -6,13 +6,13 @@ import pathlib
 
 import numpy as np
 from overturn.motion_words import is_of_floor, worded
-from overturn.spectrum_file import JOB, PHYSICAL, RATES, STRENGTHS
+from overturn.spectrum_file import JOB, PHYSICAL
+from overturn.tables import RATES, SIZES, STRENGTHS
 
 PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
           "antisymmetric_ricker": "antisymmetric Ricker wavelet",
           "mavroeidis_papageorgiou": "Mavroeidis\u2013Papageorgiou pulse"}
 PULSE_NUMBERS = ("window", "cycles", "gamma", "nu")
-SIZES = ("size", "frequency_parameter")
 # Quantity, symbol and unit of a value.
 SYMBOLS = {"frequency": "ω_p/p", "pulse_period": "period", "pulse_frequency": "frequency", "pga": "PGA", "size": "R",
            "frequency_parameter": "p"}

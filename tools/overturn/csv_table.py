@@ -7,13 +7,13 @@ import re
 
 import numpy as np
 
+from overturn import tables
 from overturn.choice import add_choice_arguments, chosen
 from overturn.motion_words import VARIABLES, column_named
 from overturn.output_file import BEGINNING, new_file
 from overturn.result_file import HISTORY, SPECTRUM, STUDY, damage_reported, open_result
 from overturn.spectrum_file import COUNTED
 from overturn.tool import USAGE, ToolError, parse_with_output, parser_of
-from overturn.units import LABELS
 
 EXAMPLE = """\
 example:
@@ -35,16 +35,13 @@ has a column for each:
 
 REGION = "region"  # a column of every table of a spectrum
 # The names of all columns of fields that a table of a spectrum may have; see docs/results.md.
-FIELDS = {REGION, "angle", "velocity", "margin", "error", "peak", "fall_time", "friction",
-          "normal", "impacts", "steps", "status", "evaluated"}
+FIELDS = {*tables.FIELDS, "evaluated"}
 # The last columns of every kind of table, and one that it always has.
 LAST = ((FIELDS, REGION), ({"flip_amplitude", "flip_pga", "region_below", "region_above"}, "flip_amplitude"),
         ({"acceleration", "angle", "friction", "ground", "q", "velocity"}, "angle"),
         ({f"{name}_{side}" for side in ("before", "after")
           for name in ("acceleration", "angle", "friction", "ground", "q", "velocity")}, "angle_after"))
-FIRST = {*LABELS, "width", "height", "half_width", "half_height", *COUNTED, "crossing", "time", "setting",
-         "direction", "center_offset", "center_height", "radius_of_gyration", "incline", "slenderness_plus",
-         "slenderness_minus", "size_plus", "size_minus", "frequency_parameter_minus"}
+FIRST = {*tables.QUANTITIES, *COUNTED, "crossing", "time", "setting", "frequency_parameter_minus"}
 NUMBER = re.compile("[-+.0-9einfa]*")  # inf and nan, too
 
 

@@ -4,10 +4,9 @@ import numpy as np
 
 from overturn.block_groups import texts_of
 from overturn.regions import APART, BETWEEN, ranks, worst
+from overturn.tables import STRENGTHS
 from overturn.tool import USAGE, ToolError
 
-STRENGTHS = ("amplitude", "scale", "pga")
-RATES = ("frequency", "pulse_period", "pulse_frequency")
 JOB, PHYSICAL = "job", "physical"  # units: those of the job, or seconds, g and degrees
 EQUIVALENTS = {"frequency": "pulse_period", "amplitude": "pga", "scale": "pga"}  # in physical units
 MOST_REACH = 1 / 16  # of a cell from its value, over the range of the axis: nine even values leave no gaps

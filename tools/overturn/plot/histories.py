@@ -10,14 +10,15 @@ from types import SimpleNamespace
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.lines import Line2D
-from overturn.captions import (SIZES, file_name, ground_text, ground_word, is_linear, is_recorded, plain,
-                               slenderness_text, title_of)
+from overturn.captions import (file_name, ground_text, ground_word, is_linear, is_recorded, plain, slenderness_text,
+                               title_of)
 from overturn.motion_words import worded
 from overturn.output_file import save
 from overturn.plot.headings import Heading
 from overturn.regions import REGIONS, UNDECIDED, meaning_of
 from overturn.result_file import HISTORY, damage_reported, open_result
-from overturn.spectrum_file import EQUIVALENTS, JOB, PHYSICAL, RATES, STRENGTHS
+from overturn.spectrum_file import EQUIVALENTS, JOB, PHYSICAL
+from overturn.tables import RATES, SIZES, STRENGTHS
 from overturn.ticks import name_ticks
 from overturn.tool import ToolError, parse_with_picture, parser_of
 from overturn.units import add_units_argument, expect_size
