@@ -64,7 +64,7 @@ double estimated_seconds(std::int64_t items, const ComputeSample& compute_sample
 double direct_seconds(const Problem& problem, Kernel kernel)
 {
     Problem direct = problem;
-    direct.numerics.fill = false;
+    direct.product = Spectrum();
     std::erase(direct.fields, Field::evaluated);
     return estimated_seconds(direct.grid.points(), [&](std::int64_t i) {
         const Tile tile = sample_tile(direct.grid, i);
@@ -103,7 +103,7 @@ void print_time(const Problem& problem, Kernel kernel)
                                       "need 1/n of it",
                                       human_duration(seconds), name_of(kernel)));
     };
-    if (problem.numerics.fill) {
+    if (problem.product.audit()) {
         const FillEstimate fill = fill_estimate(problem, kernel);
         print(fill.seconds);
         print_row("fill", fmt::format("about {:.2g} % of the points are integrated; all of them "
@@ -114,7 +114,7 @@ void print_time(const Problem& problem, Kernel kernel)
     print(direct);
     if (reason_not_to_fill(problem).empty()) {
         Problem filled = problem;
-        filled.numerics.fill = true;
+        filled.product = FilledSpectrum();
         filled.fields.push_back(Field::evaluated);
         print_row("fill", fmt::format("about {} with numerics.fill = true",
                                       human_duration(fill_estimate(filled, kernel).seconds)));

@@ -42,7 +42,7 @@ public:
         for (const Column& column : grid_.numbers) {
             add_column(column, {});
         }
-        if (job_.problem.product == Product::boundary) {
+        if (job_.problem.product.scans_strengths()) {
             add_scan(grid_.dimensions[*grid_.dimension_of(Role::strength)]);
         }
         if (job_.blocks) {

@@ -144,7 +144,7 @@ void add_checksums(hid_t file, const Problem& problem)
     write_attribute(dataset, "algorithm",
                     fmt::format("xxHash64, seed 0, over the stored values of the tile, field by "
                                 "field in the order of the variables{}; a hash of 0 is stored as 1",
-                                problem.numerics.fill ? ", audit_checked and audit_wrong" : ""));
+                                problem.product.audit() ? ", audit_checked and audit_wrong" : ""));
     write_attribute(dataset, "numbering",
                     "tiles are boxes of tile_shape, smaller at the far edges, in the order of "
                     "`dimensions`; the last varies fastest");
@@ -153,7 +153,7 @@ void add_checksums(hid_t file, const Problem& problem)
         write_attribute(dataset, layout::dimensions, fmt::format("{}", fmt::join(names, " ")));
         write_attribute(dataset, layout::tile_shape, tiling.tile_shape());
     }
-    if (problem.numerics.fill) {
+    if (problem.product.audit()) {
         add_numbers(file, layout::audit_checked, {tiles},
                     "number of filled points of the tile that were integrated as well");
         add_numbers(file, layout::audit_wrong, {tiles},
@@ -203,13 +203,13 @@ void write_skeleton(hid_t file, const std::string& path, const Job& job,
 {
     const Problem& problem = job.problem;
     const Numerics& numerics = problem.numerics;
-    if (problem.product == Product::spectrum) { // a boundary settles every verdict
+    if (problem.product.has_settings()) { // a boundary settles every verdict
         write_attribute(file, "method", name_of(numerics.method));
         write_attribute(file, "tolerance", numerics.tolerance);
         write_attribute(file, "resolve", numerics.resolve ? "true" : "false");
-        if (numerics.fill) {
+        if (const auto audit = problem.product.audit()) {
             write_attribute(file, "fill", "true");
-            write_attribute(file, "audit", numerics.audit);
+            write_attribute(file, "audit", *audit);
         }
     }
     // The token is the first dataset, so that it is within any limit of file sizes.
@@ -239,8 +239,8 @@ long double spectrum_file_bytes(const Job& job)
     // Tiles at the far edges occupy whole chunks.
     const Count points = tiles * Count(tiling.points_of_tile());
 
-    Count bytes = 20480 + (problem.numerics.fill ? 3 * tiles : tiles) * sizeof(double);
-    if (problem.numerics.fill) {
+    Count bytes = 20480 + (problem.product.audit() ? 3 * tiles : tiles) * sizeof(double);
+    if (problem.product.audit()) {
         bytes += 1200;
     }
     for (const CoordinateVariable& coordinate : coordinate_variables_of(job)) {
@@ -461,7 +461,7 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
 {
     open_->path = path;
     open_->is_durable = durable;
-    open_->is_filled = problem.numerics.fill;
+    open_->is_filled = problem.product.audit().has_value();
     if (access(path.c_str(), R_OK | W_OK) != 0) {
         // The message of MPI-IO would be "invalid access mode".
         refuse_to_open(path, system_reason(errno));

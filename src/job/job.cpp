@@ -74,12 +74,22 @@ Numerics read_numerics(const Entry& job, bool is_recorded)
     numerics.resolve = boolean_of(entry, "resolve", numerics.resolve);
     numerics.tolerance = quantity_of(
         entry, "tolerance", numerics.resolve ? tolerance_to_resolve_from : numerics.tolerance);
-    numerics.fill = boolean_of(entry, "fill", numerics.fill);
-    numerics.audit = quantity_of(entry, "audit", numerics.audit);
-    if (const auto audit = find(entry, "audit"); audit && !numerics.fill) {
+    return numerics;
+}
+
+/// Reads the product from [numerics].
+Product read_product(const Entry& job)
+{
+    const Entry entry = table_of(job, "numerics");
+    FilledSpectrum filled;
+    filled.audit = quantity_of(entry, "audit", filled.audit);
+    if (boolean_of(entry, "fill", false)) {
+        return filled;
+    }
+    if (const auto audit = find(entry, "audit")) {
         refuse(*audit, " needs fill = true: without filling, every point is integrated.");
     }
-    return numerics;
+    return {};
 }
 
 /// Reads [output].
@@ -130,7 +140,7 @@ void expect_computable(const Entry& job, const Problem& problem)
                    name_of(field));
         }
     }
-    const std::string reason = numerics.fill ? reason_not_to_fill(problem) : "";
+    const std::string reason = problem.product.audit() ? reason_not_to_fill(problem) : "";
     if (!reason.empty()) {
         refuse(key("numerics", "fill"),
                " = true is not possible: {}. Remove it to integrate every point.", reason);
@@ -144,7 +154,6 @@ constexpr long double most_bytes = 0x1p62L;
 /// Computed in floating point, which cannot overflow here.
 std::string excess_of(const Problem& problem)
 {
-    const bool is_boundary = problem.product == Product::boundary;
     long double values = 1;
     for (const std::int64_t count : stored_shape(problem)) {
         values *= static_cast<long double>(count);
@@ -157,8 +166,10 @@ std::string excess_of(const Problem& problem)
                ? ""
                : fmt::format(" has {:.4g} {} and would take {:.4g} bytes, but at most {:.4g} are "
                              "allowed. Lower the counts.",
-                             is_boundary ? values / double(most_flips(problem.scene)) : values,
-                             is_boundary ? "lines" : "points", bytes, most_bytes);
+                             problem.product.scans_strengths()
+                                 ? values / double(most_flips(problem.scene))
+                                 : values,
+                             items_of(problem).name, bytes, most_bytes);
 }
 
 } // namespace
@@ -204,10 +215,11 @@ Job read_job_text(std::string text, const std::string& name,
     }
     problem.scene.motion_of = read_motion_of(scene, job.motions);
     problem.numerics = read_numerics(entry, problem.scene.is_recorded());
+    problem.product = read_product(entry);
     problem.fields = read_fields(entry);
     read_points(entry, folder, job);
     expect_computable(entry, problem);
-    if (problem.numerics.fill) {
+    if (problem.product.audit()) {
         problem.fields.push_back(Field::evaluated);
     }
     if (const std::string excess = excess_of(problem); !excess.empty()) {
@@ -226,7 +238,7 @@ Job boundary_of(Job job)
                     "blocks. Use `overturn run`, with many values of pga or scale.",
                     in_quotes(job.blocks->file));
     }
-    if (problem.numerics.fill) {
+    if (problem.product.audit()) {
         throw Error(
             exit_code::job,
             "numerics.fill = true is for spectra; a boundary is found without filling. Remove it.");
@@ -238,7 +250,7 @@ Job boundary_of(Job job)
                     "last. Give two or more values.",
                     strength.quantity->name, strength.values.first());
     }
-    problem.product = Product::boundary;
+    problem.product = BoundaryLines();
     problem.fields = boundary_fields(problem.scene, problem.grid);
     job.resolved = resolved_text(job);
     // With fewer strengths than flips, the boundary is larger than the spectrum.

@@ -99,16 +99,16 @@ std::string resolved_text(const Job& job)
     std::string text =
         fmt::format("title = {}\n\n{}{}{}", in_quotes(job.title), scene_text(job),
                     job.blocks ? blocks_text(*job.blocks) : "", plane_text(problem.grid));
-    if (problem.product == Product::spectrum) { // a boundary ignores both
+    if (problem.product.has_settings()) { // a boundary ignores both
         std::vector<Field> fields = problem.fields;
         std::erase(fields, Field::evaluated);
         const Numerics& numerics = problem.numerics;
+        const auto audit = problem.product.audit();
         text += fmt::format(
             "\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n{}{}\n[output]\nfields = {}\n",
             name_of(numerics.method), float_text(numerics.tolerance),
             numerics.resolve ? "resolve = true\n" : "",
-            numerics.fill ? fmt::format("fill = true\naudit = {}\n", float_text(numerics.audit))
-                          : "",
+            audit ? fmt::format("fill = true\naudit = {}\n", float_text(*audit)) : "",
             list_text(fields, [](Field field) { return in_quotes(name_of(field)); }));
     }
     return text;

@@ -11,15 +11,8 @@ namespace overturn {
 
 std::vector<StoredDimension> stored_dimensions(const Problem& problem)
 {
-    const auto stored = [](const Dimension& dimension) {
-        return StoredDimension{dimension.name, dimension.size()};
-    };
-    std::vector<StoredDimension> dimensions = mapped(problem.grid.dimensions, stored);
-    if (problem.product == Product::boundary) {
-        dimensions[*problem.grid.dimension_of(Role::strength)] = {std::string(flip_dimension),
-                                                                  most_flips(problem.scene)};
-    }
-    return dimensions;
+    return std::visit([&](const auto& product) { return product.dimensions(problem); },
+                      problem.product);
 }
 
 Shape stored_shape(const Problem& problem)
@@ -82,32 +75,63 @@ Shape filled_tile_of(const Grid& grid)
 
 } // namespace
 
+std::vector<StoredDimension> Spectrum::dimensions(const Problem& problem) const
+{
+    return mapped(problem.grid.dimensions, [](const Dimension& dimension) {
+        return StoredDimension{dimension.name, dimension.size()};
+    });
+}
+
+// 64 x 64 points take a few milliseconds: long compared with a message (microseconds), short
+// compared with a run. A spectrum of 100 x 100 points still provides work for a few ranks. Under a
+// record, 16 x 16 points take as long.
+Shape Spectrum::tile(const Problem& problem) const
+{
+    return tile_of(problem.grid, problem.scene.is_recorded() ? 16 : 64);
+}
+
+Items Spectrum::items(const Problem& problem) const
+{
+    return {problem.grid.points(), "points"};
+}
+
+Shape FilledSpectrum::tile(const Problem& problem) const
+{
+    return filled_tile_of(problem.grid);
+}
+
+std::vector<StoredDimension> BoundaryLines::dimensions(const Problem& problem) const
+{
+    std::vector<StoredDimension> dimensions = Spectrum().dimensions(problem);
+    dimensions[*problem.grid.dimension_of(Role::strength)] = {std::string(flip_dimension),
+                                                              most_flips(problem.scene)};
+    return dimensions;
+}
+
+// One line, which takes longer than a tile of a spectrum: about 10 ms, and much more for slow
+// pulses, under which blocks bounce very often.
+Shape BoundaryLines::tile(const Problem& problem) const
+{
+    return mapped(dimensions(problem), [](const StoredDimension& dimension) {
+        return dimension.name == flip_dimension ? dimension.size : 1;
+    });
+}
+
+Items BoundaryLines::items(const Problem& problem) const
+{
+    return {count_points(stored_shape(problem)) / most_flips(problem.scene), "lines"};
+}
+
 Tiling tiling_of(const Problem& problem)
 {
-    const Grid& grid = problem.grid;
-    if (problem.product == Product::boundary) {
-        // A line of a boundary takes longer than a tile of a spectrum: about 10 ms, and much more
-        // for slow pulses, under which blocks bounce very often.
-        const Shape shape = stored_shape(problem);
-        Shape tile(shape.size(), 1);
-        const std::size_t strength = *grid.dimension_of(Role::strength);
-        tile[strength] = shape[strength];
-        return Tiling(shape, tile);
-    }
-    if (problem.numerics.fill) {
-        return Tiling(grid.shape(), filled_tile_of(grid));
-    }
-    // 64 x 64 points take a few milliseconds: long compared with a message (microseconds), short
-    // compared with a run. A spectrum of 100 x 100 points still provides work for a few ranks.
-    // Under a record, 16 x 16 points take as long.
-    return Tiling(grid.shape(), tile_of(grid, problem.scene.is_recorded() ? 16 : 64));
+    return std::visit(
+        [&](const auto& product) { return Tiling(stored_shape(problem), product.tile(problem)); },
+        problem.product);
 }
 
 Items items_of(const Problem& problem)
 {
-    const std::int64_t points = count_points(stored_shape(problem));
-    return problem.product == Product::boundary ? Items{points / most_flips(problem.scene), "lines"}
-                                                : Items{points, "points"};
+    return std::visit([&](const auto& product) { return product.items(problem); }, problem.product);
 }
 
 std::string reason_not_to_fill(const Problem& problem)

@@ -1,5 +1,6 @@
 #include "overturn/problem/problem_bytes.hpp"
 
+#include <array>
 #include <cstring>
 #include <memory>
 #include <type_traits>
@@ -62,6 +63,17 @@ struct Archive {
     }
 
     void transfer(Dimension& dimension) { transfer_all(dimension.name, dimension.columns); }
+
+    void transfer(Product& product)
+    {
+        std::size_t kind = product.index();
+        double audit = product.audit().value_or(0);
+        transfer_all(kind, audit);
+        if (is_input) {
+            product = std::array<Product, 3>{Spectrum(), FilledSpectrum{{}, audit},
+                                             BoundaryLines()}[kind];
+        }
+    }
 
     void transfer(std::shared_ptr<const Accelerogram>& record)
     {

@@ -208,8 +208,7 @@ py::dict evaluate(const Scene& scene, const Numerics& numerics, const Columns& c
         const py::gil_scoped_release released;
         const Kernel kernel = widest_kernel();
         const DropRequested handle_signals = signal_check();
-        const Problem problem{scene, grid_of_columns(scene, columns), numerics, Product::spectrum,
-                              fields};
+        const Problem problem{scene, grid_of_columns(scene, columns), numerics, Spectrum(), fields};
         const Tiling tiling = tiling_of(problem);
         for (std::int64_t number = 0; number < tiling.size(); ++number) {
             const Tile tile = tiling[number];

@@ -47,8 +47,8 @@ Outputs outputs_of(const std::vector<Field>& fields)
     return outputs;
 }
 
-TileFields filled_tile(const Problem& problem, const Tile& tile, Kernel kernel,
-                       const DropRequested& drop_requested)
+TileFields fields_of(const FilledSpectrum&, const Problem& problem, const Tile& tile, Kernel kernel,
+                     const DropRequested& drop_requested)
 {
     FilledTile filled = fill_tile(problem, tile, kernel, drop_requested);
     TileFields result{.values = {}, .audit = filled.audit};
@@ -63,8 +63,8 @@ TileFields filled_tile(const Problem& problem, const Tile& tile, Kernel kernel,
     return result;
 }
 
-TileFields spectrum_tile(const Problem& problem, const Tile& tile, Kernel kernel,
-                         const DropRequested& drop_requested)
+TileFields fields_of(const Spectrum&, const Problem& problem, const Tile& tile, Kernel kernel,
+                     const DropRequested& drop_requested)
 {
     const auto& [scene, grid, numerics, product, fields] = problem;
     const PointRun points(scene, Coordinates(scene, grid, tile).points(), kernel, drop_requested,
@@ -74,8 +74,8 @@ TileFields spectrum_tile(const Problem& problem, const Tile& tile, Kernel kernel
     return {.values = mapped(fields, computed)};
 }
 
-TileFields boundary_tile(const Problem& problem, const Tile& tile, Kernel kernel,
-                         const DropRequested& drop_requested)
+TileFields fields_of(const BoundaryLines&, const Problem& problem, const Tile& tile, Kernel kernel,
+                     const DropRequested& drop_requested)
 {
     const auto& [scene, grid, numerics, product, fields] = problem;
     const std::size_t along = *grid.dimension_of(Role::strength);
@@ -123,9 +123,10 @@ TileFields boundary_tile(const Problem& problem, const Tile& tile, Kernel kernel
 TileFields compute_tile(const Problem& problem, const Tile& tile, Kernel kernel,
                         const DropRequested& drop_requested)
 {
-    return (problem.product == Product::boundary ? boundary_tile
-            : problem.numerics.fill              ? filled_tile
-                                    : spectrum_tile)(problem, tile, kernel, drop_requested);
+    const auto of = [&](const auto& product) {
+        return fields_of(product, problem, tile, kernel, drop_requested);
+    };
+    return std::visit(of, problem.product);
 }
 
 void keep_freed_memory()

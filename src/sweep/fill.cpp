@@ -378,7 +378,7 @@ private:
     {
         std::vector<int> places;
         for (int row = 0; row < rows(); ++row) {
-            for_each_audited(problem_.numerics.audit, first[0] + row, first[1],
+            for_each_audited(*problem_.product.audit(), first[0] + row, first[1],
                              first[1] + columns(), [&](std::int64_t column) {
                                  const int at = place(row, int(column - first[1]));
                                  if (!is_integrated(at)) {

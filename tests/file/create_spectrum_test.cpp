@@ -231,7 +231,7 @@ TEST_F(SpectrumFileBytes, AreTheSizeOfTheFileOrLittleMore)
     }
     job = job_of_one_block();
     expect_close_bound(job, folder / "one_block");
-    job.problem.numerics.fill = true;
+    job.problem.product = FilledSpectrum();
     job.problem.fields = {Field::region, Field::evaluated};
     expect_close_bound(job, folder / "filled");
     expect_close_bound(boundary_of(job_of_one_block()), folder / "boundary");

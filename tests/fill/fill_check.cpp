@@ -36,14 +36,13 @@ struct Counts {
 };
 
 /// A spectrum of one block, filled without an audit.
-Problem filled_spectrum(const Scene& scene, Numerics numerics, std::vector<Given> points,
+Problem filled_spectrum(const Scene& scene, const Numerics& numerics, std::vector<Given> points,
                         bool with_impacts = false)
 {
-    numerics.fill = true;
-    numerics.audit = 0;
     Problem problem{.scene = scene,
                     .grid = grid_of(scene, std::move(points)),
                     .numerics = numerics,
+                    .product = FilledSpectrum{{}, 0},
                     .fields = {Field::region, Field::evaluated}};
     if (with_impacts) {
         problem.fields.insert(problem.fields.begin(), Field::impacts);
@@ -94,7 +93,7 @@ Counts compare(const Problem& problem, const Tile& tile, const FillRule& rule)
     const bool with_impacts = has_impacts(problem);
     const FilledTile filled = fill_tile(problem, tile, widest_kernel(), nullptr, rule);
     Problem every_point = problem;
-    every_point.numerics.fill = false;
+    every_point.product = Spectrum();
     every_point.fields = {Field::region};
     if (with_impacts) {
         every_point.fields.push_back(Field::impacts);

@@ -47,7 +47,8 @@ void use(const Job& job, const std::string& path)
     const std::string again = read_job(path).resolved;
     demand(again == job.resolved,
            fmt::format("the resolved job\n{}\nis read back as\n{}", job.resolved, again));
-    if (problem.grid.axis_or_number(Role::strength)->values.size() > 1 && !problem.numerics.fill) {
+    if (problem.grid.axis_or_number(Role::strength)->values.size() > 1 &&
+        !problem.product.audit()) {
         demand(items_of(boundary_of(job).problem).count > 0, "a boundary has no lines");
     }
 }

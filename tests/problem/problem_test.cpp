@@ -93,14 +93,14 @@ TEST(TilingOf, AFilledSpectrumHasLargeTilesAlongStrengthAndRate)
         Problem problem = problem_of_grid({}, {axis("slenderness", {0.1, 0.2}),
                                                axis("restitution", {0.5, 0.7, 0.9}), pga_axis(rows),
                                                frequency_axis(columns)});
-        problem.numerics.fill = true;
+        problem.product = FilledSpectrum();
         return tiling_of(problem).tile_shape();
     };
     EXPECT_EQ(tile(1000, 1000), (Shape{1, 1, 128, 128}));
     EXPECT_EQ(tile(100, 1000), (Shape{1, 1, 100, 128}));
     EXPECT_EQ(tile(1024, 300), (Shape{1, 1, 256, 256}));
     Problem line = spectrum(pga_axis(5000), number("frequency", 3));
-    line.numerics.fill = true;
+    line.product = FilledSpectrum();
     EXPECT_EQ(tiling_of(line).tile_shape(), (Shape{256}));
 }
 
@@ -121,7 +121,7 @@ TEST(Boundary, StoresFlipsInPlaceOfTheStrength)
     EXPECT_EQ(stored_shape(problem), (Shape{2, 100, 20}));
     EXPECT_EQ(items_of(problem).count, 4000);
     EXPECT_STREQ(items_of(problem).name, "points");
-    problem.product = Product::boundary;
+    problem.product = BoundaryLines();
     EXPECT_EQ(names_of_stored(problem),
               (std::vector<std::string>{"slenderness", "crossing", "frequency"}));
     EXPECT_EQ(stored_shape(problem), (Shape{2, 64, 20}));
@@ -137,7 +137,7 @@ TEST(Boundary, UnderRecordsStoresMoreFlips)
     Problem problem = problem_of_grid(scene_of_three_records(),
                                       {axis("motion", {1, 2, 3}), pga_axis(100), number("size", 2),
                                        number("slenderness", 0.2), number("restitution", 0.9)});
-    problem.product = Product::boundary;
+    problem.product = BoundaryLines();
     EXPECT_EQ(stored_shape(problem), (Shape{3, 256}));
     EXPECT_EQ(tiling_of(problem).tile_shape(), (Shape{1, 256}));
     EXPECT_EQ(items_of(problem).count, 3);

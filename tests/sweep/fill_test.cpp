@@ -38,12 +38,15 @@ Grid leaning_grid(double direction)
 const std::vector<Field> region_alone{Field::region, Field::evaluated};
 const std::vector<Field> region_and_impacts{Field::region, Field::impacts, Field::evaluated};
 
-/// A filled spectrum, of one tile.
-Problem filled_problem(const Scene& scene, Numerics numerics, const Grid& grid,
-                       std::vector<Field> fields = region_alone)
+/// A filled spectrum, of one tile, without an audit.
+Problem filled_problem(const Scene& scene, const Numerics& numerics, const Grid& grid,
+                       std::vector<Field> fields = region_alone, double audit = 0)
 {
-    numerics.fill = true;
-    return {.scene = scene, .grid = grid, .numerics = numerics, .fields = std::move(fields)};
+    return {.scene = scene,
+            .grid = grid,
+            .numerics = numerics,
+            .product = FilledSpectrum{{}, audit},
+            .fields = std::move(fields)};
 }
 
 FilledTile filled(const Problem& problem, const FillRule& rule = {},
@@ -57,7 +60,7 @@ FilledTile filled(const Problem& problem, const FillRule& rule = {},
 TileFields integrated(Problem problem)
 {
     const Tile tile = tiling_of(problem)[0];
-    problem.numerics.fill = false;
+    problem.product = Spectrum();
     problem.fields = {Field::region, Field::impacts};
     return compute_tile(problem, tile, widest_kernel());
 }
@@ -66,8 +69,6 @@ const auto& regions_of(const TileFields& fields)
 {
     return std::get<std::vector<std::uint8_t>>(fields.values[0]);
 }
-
-const Numerics without_audit{.audit = 0};
 
 std::int64_t count(const std::vector<std::uint8_t>& values, std::uint8_t value)
 {
@@ -78,9 +79,8 @@ TEST(Fill, EveryPointHasTheRegionOfADirectSpectrum)
 {
     const Grid grid = some_grid(128, 128);
     for (const Scene& scene : every_scene()) {
-        for (const Numerics& numerics :
-             {without_audit, Numerics{.method = Method::taylor, .audit = 0},
-              Numerics{.tolerance = 1e-4, .resolve = true, .audit = 0}}) {
+        for (const Numerics& numerics : {Numerics(), Numerics{.method = Method::taylor},
+                                         Numerics{.tolerance = 1e-4, .resolve = true}}) {
             const Problem problem = filled_problem(scene, numerics, grid);
             const FilledTile tile = filled(problem);
             EXPECT_EQ(tile.region, regions_of(integrated(problem)))
@@ -99,8 +99,7 @@ TEST(Fill, EveryPointHasTheRegionOfADirectSpectrumIfTheSidesOfTheBlockDiffer)
     for (const Scene& scene : every_scene()) {
         for (const double direction : {0.0, 180.0}) {
             for (const auto& fields : {region_alone, region_and_impacts}) {
-                const Problem problem =
-                    filled_problem(scene, without_audit, leaning_grid(direction), fields);
+                const Problem problem = filled_problem(scene, {}, leaning_grid(direction), fields);
                 const FilledTile tile = filled(problem);
                 const TileFields direct = integrated(problem);
                 EXPECT_EQ(tile.region, regions_of(direct)) << name_of(scene.pulse);
@@ -120,7 +119,7 @@ TEST(Fill, EveryPointHasTheImpactsOfADirectSpectrum)
 {
     const Grid grid = some_grid(128, 128);
     for (const Scene& scene : every_scene()) {
-        const Problem problem = filled_problem(scene, without_audit, grid, region_and_impacts);
+        const Problem problem = filled_problem(scene, {}, grid, region_and_impacts);
         const FilledTile tile = filled(problem);
         const TileFields direct = integrated(problem);
         EXPECT_EQ(tile.region, regions_of(direct)) << name_of(scene.pulse);
@@ -139,8 +138,7 @@ TEST(Fill, EveryKernelFillsTheSamePoints)
             continue;
         }
         for (const Scene& scene : every_scene()) {
-            const Problem problem =
-                filled_problem(scene, {.audit = 0.01}, grid, region_and_impacts);
+            const Problem problem = filled_problem(scene, {}, grid, region_and_impacts, 0.01);
             const FilledTile one = filled(problem, {}, kernel);
             const FilledTile other = filled(problem);
             EXPECT_EQ(one.region, other.region) << name_of(kernel);
@@ -154,7 +152,7 @@ TEST(Fill, EveryKernelFillsTheSamePoints)
 TEST(Fill, WorksOnTilesOfAnyShape)
 {
     for (const auto& [rows, columns] : {std::pair{1, 1}, {1, 100}, {100, 1}, {2, 3}, {37, 5}}) {
-        const Problem problem = filled_problem({}, without_audit, some_grid(rows, columns));
+        const Problem problem = filled_problem({}, {}, some_grid(rows, columns));
         EXPECT_EQ(filled(problem).region, regions_of(integrated(problem)))
             << rows << " x " << columns;
     }
@@ -168,7 +166,7 @@ TEST(Fill, EverySpectrumOfAGridIsFilledByItself)
         std::vector<Given> given = plane;
         given.push_back(slenderness);
         given.push_back(number("restitution", 0.8));
-        const Problem problem = filled_problem({}, without_audit, grid_of({}, given));
+        const Problem problem = filled_problem({}, {}, grid_of({}, given));
         return fill_tile(problem, tiling_of(problem)[tile], widest_kernel()).region;
     };
     EXPECT_EQ(filled_regions(axis("slenderness", {0.1, 0.3}), 0),
@@ -181,7 +179,7 @@ TEST(Fill, EverySpectrumOfAGridIsFilledByItself)
 Problem hard_problem()
 {
     return filled_problem({.pulse = PulseKind::cosine, .shape = {.cycles = 2}},
-                          {.method = Method::taylor, .audit = 0},
+                          {.method = Method::taylor},
                           grid_of_block(0.1, 1, {.first = 1.01, .last = 1.50306, .count = 128},
                                         {.first = 1.053725, .last = 2, .count = 128}));
 }
@@ -200,9 +198,9 @@ TEST(Fill, AuditOfAShareChecksThatShare)
 {
     const Grid grid = grid_of_block(0.2, 0.9, {.first = 0.1, .last = 0.9, .count = 128},
                                     {.first = 8, .last = 9, .count = 128}); // S everywhere
-    const FilledTile unchecked = filled(filled_problem({}, without_audit, grid));
+    const FilledTile unchecked = filled(filled_problem({}, {}, grid));
     for (const double share : {1e-3, 0.01, 0.3, 1.0}) {
-        const FilledTile tile = filled(filled_problem({}, {.audit = share}, grid));
+        const FilledTile tile = filled(filled_problem({}, {}, grid, region_alone, share));
         const double expected = share * double(count(unchecked.evaluated, point_origin::filled));
         // At most one point in a block is chosen: the variance is at most the Poisson one. A wrong
         // share would be off by a factor of two.
@@ -217,7 +215,7 @@ TEST(Fill, AuditOfAShareChecksThatShare)
 TEST(Fill, EveryPointIsIntegratedIfTheAuditFindsAWrongOne)
 {
     Problem problem = hard_problem();
-    problem.numerics.audit = 1;
+    problem.product = FilledSpectrum{{}, 1};
     const FilledTile tile = filled(problem, nodes_alone);
     EXPECT_GT(tile.audit.wrong, 0);
     EXPECT_EQ(tile.region, regions_of(integrated(problem)));
@@ -227,7 +225,7 @@ TEST(Fill, EveryPointIsIntegratedIfTheAuditFindsAWrongOne)
 TEST(Fill, TilesStoreWhichPointsWereIntegrated)
 {
     const Problem problem = filled_problem({}, {}, some_grid(128, 128),
-                                           {Field::impacts, Field::region, Field::evaluated});
+                                           {Field::impacts, Field::region, Field::evaluated}, 1e-3);
     const TileFields fields = compute_tile(problem, tiling_of(problem)[0], widest_kernel());
     const FilledTile tile = filled(problem);
     EXPECT_EQ(std::get<std::vector<std::uint16_t>>(fields.values[0]), tile.impacts);

@@ -3,6 +3,7 @@
 
 #include "overturn/problem/fields.hpp"
 #include "overturn/problem/grid.hpp"
+#include "overturn/problem/product.hpp"
 #include "overturn/problem/scene.hpp"
 #include "overturn/problem/tile.hpp"
 
@@ -12,17 +13,11 @@
 
 namespace overturn {
 
-/// What is computed over the points.
-enum class Product {
-    spectrum, ///< the fields of every point
-    boundary  ///< the strengths at which the verdict flips, for all other coordinates
-};
-
 struct Problem {
     Scene scene{};
     Grid grid{}; ///< of a boundary: the scan begins with its strengths
     Numerics numerics{};
-    Product product = Product::spectrum;
+    Product product{};
     std::vector<Field> fields{}; ///< in the job's order, without duplicates; of a filled spectrum,
                                  ///< `evaluated` is the last one
 };
@@ -36,12 +31,6 @@ inline std::int64_t most_flips(const Scene& scene)
     return scene.is_recorded() ? 256 : 64;
 }
 
-/// A dimension of the stored fields.
-struct StoredDimension {
-    std::string name;
-    std::int64_t size;
-};
-
 /// Slowest first: those of the grid; of a boundary, `crossing` instead of the strength.
 std::vector<StoredDimension> stored_dimensions(const Problem& problem);
 Shape stored_shape(const Problem& problem);
@@ -54,11 +43,7 @@ std::vector<Field> boundary_fields(const Scene& scene, const Grid& grid);
 /// The division into tiles.
 Tiling tiling_of(const Problem& problem);
 
-/// What a run counts: points of a spectrum, or lines of a boundary.
-struct Items {
-    std::int64_t count;
-    const char* name; ///< plural
-};
+/// What the run of a problem counts.
 Items items_of(const Problem& problem);
 
 /// Why a spectrum cannot be filled, as a clause; empty if it can.

@@ -79,8 +79,6 @@ struct Numerics {
     /// Local error per step, relative to the size of the motion or, if smaller, to alpha [1].
     double tolerance = 1e-9;
     bool resolve = false; ///< settle verdicts in doubt with more digits
-    bool fill = false;    ///< integrate only points near the boundaries of regions, see fill.hpp
-    double audit = 1e-3;  ///< share of the filled points that are integrated as well
 };
 
 /// For answers about single points and for references.
