@@ -1,7 +1,6 @@
 #include "point_run.hpp"
 
 #include "overturn/integrate/more_digits.hpp"
-#include "overturn/mechanics/free_contact.hpp"
 #include "overturn/mechanics/low_bounces.hpp"
 #include "overturn/text/mapped.hpp"
 
@@ -321,48 +320,46 @@ bool PointRun::settle_low_bounces(int point, Outcome& outcome) const
     return true;
 }
 
-EndOfPoint PointRun::end_of(int point, const Outcome& outcome) const
+double PointRun::first_uplift(int point) const
 {
-    const auto first_uplift = [this, point] {
-        return with_theory(scene_.theory, [&]<Theory theory>() {
-            return with_excitation<double, theory>(point, [](const auto& excitation) {
-                return excitation.next_uplift(true, excitation.motion.begin, -infinity);
-            });
+    return with_theory(scene_.theory, [&]<Theory theory>() {
+        return with_excitation<double, theory>(point, [](const auto& excitation) {
+            return excitation.next_uplift(true, excitation.motion.begin, -infinity);
         });
-    };
-    return {scene_, this->point(point), outcome, first_uplift};
+    });
 }
 
-void PointRun::add_contact(const Numerics& numerics, Outcomes& outcomes) const
+namespace {
+
+/// What the contact bears is unknown without a verdict.
+void judge_contact(Outcome& outcome, bool is_known)
+{
+    outcome.friction = is_known ? outcome.friction : unknown;
+    outcome.normal = is_known ? outcome.normal : unknown;
+    if (outcome.normal <= 0) {
+        outcome.flags |= status::lifts_off;
+    }
+}
+
+} // namespace
+
+void PointRun::add_contact(Outcomes& outcomes) const
 {
     const bool is_recorded = scene_.is_recorded();
-    Outcomes watched(size(), {.error = is_recorded,
-                              .peak = true,
-                              .region = true,
-                              .margin = is_recorded,
-                              .contact = true});
-    run(numerics.resolve ? most_accurate : numerics, watched, all());
-    if (is_recorded && numerics.resolve) {
+    Outcomes watched(
+        size(), {.error = is_recorded, .contact = true, .region = true, .margin = is_recorded});
+    run(most_accurate, watched, all());
+    if (is_recorded) {
         std::vector<int> in_doubt = all();
         std::erase_if(in_doubt, [&](int i) { return !watched[i].has(outcome_flag::in_doubt); });
         run_in_31_digits(watched, in_doubt);
     }
     for (int i = 0; i < size(); ++i) {
-        const Outcome& seen = watched[i];
+        outcomes[i].friction = watched[i].friction;
+        outcomes[i].normal = watched[i].normal;
         // The motion may be so sensitive that this run has another end than the one of the verdict.
-        const bool is_known = seen.region == outcomes[i].region && seen.region != Region::undecided;
-        ContactDemand<double> demand{seen.friction, seen.normal};
-        if (is_known && !seen.has(outcome_flag::fell)) {
-            const ContactSides<double> sides(point(i).block, point(i).gyration);
-            ContactDemand<double> later = free_contact(seen.end(), block_at_end(i, seen), sides);
-            later.normal /= sides.plus.cosine;
-            demand.include(later, true);
-        }
-        outcomes[i].friction = is_known ? demand.friction : unknown;
-        outcomes[i].normal = is_known ? demand.normal : unknown;
-        if (outcomes[i].normal <= 0) {
-            outcomes[i].flags |= status::lifts_off;
-        }
+        judge_contact(outcomes[i], watched[i].region == outcomes[i].region &&
+                                       watched[i].region != Region::undecided);
     }
 }
 
@@ -373,35 +370,35 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
     computed.error = outputs.error || numerics.resolve;
     computed.margin = outputs.margin || numerics.resolve;
     computed.steps = outputs.steps || numerics.resolve; // see is_short()
-    computed.peak = outputs.peak && (points.scene().is_recorded() || !computed.error);
     computed.region = outputs.region || outputs.contact;
-    computed.contact = false; // by a run of its own
+    // More digits may give another verdict, and do not see the contact.
+    computed.contact = outputs.contact && !numerics.resolve;
     // An integration that is accurate enough for a verdict may be inaccurate for a peak, whose
     // error has no bound. Filling, which alone asks for grazes, only compares the peaks of nodes.
     const bool stores_peaks = outputs.peak && !outputs.grazes;
-    const Numerics& first_pass = numerics.resolve && stores_peaks ? most_accurate : numerics;
+    computed.peak = outputs.peak && (stores_peaks || !numerics.resolve);
     Outcomes outcomes(points.size(), computed);
-    points.run(first_pass, outcomes, points.all(),
+    points.run(numerics.resolve && stores_peaks ? most_accurate : numerics, outcomes, points.all(),
                numerics.resolve ? UncertainImpact::stop : UncertainImpact::go_on);
     if (numerics.resolve) {
         resolve(points, most_in_50_digits, outcomes);
-    }
-    if (outputs.peak && !computed.peak) {
-        // Under a pulse, a kernel computes either errors or peaks.
-        Outcomes with_peaks(points.size(), {.peak = true, .grazes = outputs.grazes});
-        points.run(first_pass, with_peaks, points.all());
-        for (int i = 0; i < points.size(); ++i) {
-            const Outcome& seen = with_peaks[i];
-            outcomes[i].peak = seen.peak;
-            if (outputs.grazes) {
-                outcomes[i].lowest_turn = seen.lowest_turn;
-                outcomes[i].softest_impact = seen.softest_impact;
-                outcomes[i].last_impact = seen.last_impact;
+        if (outputs.contact) {
+            points.add_contact(outcomes);
+        }
+        if (outputs.grazes) { // of nodes of one accuracy
+            Outcomes of_nodes(points.size(), {.peak = true, .grazes = true});
+            points.run(numerics, of_nodes, points.all());
+            for (int i = 0; i < points.size(); ++i) {
+                outcomes[i].peak = of_nodes[i].peak;
+                outcomes[i].lowest_turn = of_nodes[i].lowest_turn;
+                outcomes[i].softest_impact = of_nodes[i].softest_impact;
+                outcomes[i].last_impact = of_nodes[i].last_impact;
             }
         }
-    }
-    if (outputs.contact) {
-        points.add_contact(numerics, outcomes);
+    } else if (outputs.contact) {
+        for (int i = 0; i < points.size(); ++i) {
+            judge_contact(outcomes[i], outcomes[i].region != Region::undecided);
+        }
     }
     return outcomes;
 }

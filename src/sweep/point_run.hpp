@@ -47,7 +47,7 @@ struct ScaledPulses {
 };
 
 /// Points of one scene, prepared for integration. Long computations throw TileDropped on request.
-class PointRun {
+class PointRun : public FirstUplifts {
 public:
     /// are_symmetric: whether all blocks are known to be; then a kernel reads less of each.
     PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
@@ -97,12 +97,16 @@ public:
     bool settle_low_bounces(int point, Outcome& outcome) const;
 
     /// From which the fields of a point follow; the outcome must have the outputs that they need.
-    EndOfPoint end_of(int point, const Outcome& outcome) const;
+    EndOfPoint end_of(int point, const Outcome& outcome) const
+    {
+        return {scene_, this->point(point), outcome, *this, point};
+    }
+    double first_uplift(int point) const override;
 
     /// Sets what the contact must bear during the ground motion and after it, by a run of its own;
     /// the normal force over that at rest, and status::lifts_off. NaN for points without a verdict,
     /// and where this run has another region than these outcomes. Only in the nonlinear theory.
-    void add_contact(const Numerics& numerics, Outcomes& outcomes) const;
+    void add_contact(Outcomes& outcomes) const;
 
 private:
     void throw_if_dropped() const;

@@ -77,7 +77,7 @@ template <Theory theory, Outputs outputs>
         put_if(wanted.grazes, end.softest_impact, &Outcome::softest_impact);
         put_if(wanted.grazes, end.last_impact, &Outcome::last_impact);
     }
-    if constexpr (outputs.peak && Equations<theory>::has_contact_forces) {
+    if constexpr (outputs.contact) {
         if (wanted.contact) {
             const auto demand = stage.contact_demand();
             put(demand.friction, &Outcome::friction);
@@ -185,7 +185,7 @@ template <Theory theory, Outputs outputs>
 std::optional<ContactSides<estimate_t<T>>> contact_of([[maybe_unused]] const PackPoints& points,
                                                       [[maybe_unused]] const Block<T>& blocks)
 {
-    if constexpr (outputs.peak && Equations<theory>::has_contact_forces) {
+    if constexpr (outputs.contact) {
         if (points.task.outputs.contact) {
             const T gyration =
                 points.gathered([&](int i) { return points.task.points[i].gyration; });
@@ -265,9 +265,14 @@ SweepKernel kernel_for(const Outputs& outputs)
 {
     // Under a record, the motion may be so sensitive that another integration has another peak.
     constexpr Outputs with_errors{.impacts = true, .error = true, .peak = OVERTURN_RECORDED};
+    constexpr bool has_contact = Equations<theory>::has_contact_forces;
+    constexpr Outputs all{.impacts = true, .error = true, .peak = true, .contact = has_contact};
     if constexpr (has_31_digits) {
-        return sweep<theory, with_errors, directions>;
+        return sweep<theory, all, directions>;
     } else {
+        if (outputs.contact || (outputs.error && outputs.peak)) {
+            return sweep<theory, all, directions>;
+        }
         if (outputs.error) {
             return sweep<theory, with_errors, directions>;
         }

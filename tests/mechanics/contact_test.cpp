@@ -1,4 +1,5 @@
 #include "overturn/mechanics/free_contact.hpp"
+#include "overturn/mechanics/free_rocking.hpp"
 #include "overturn/number/digits50.hpp"
 
 #include <boost/math/quadrature/gauss.hpp>
@@ -97,11 +98,65 @@ TEST(ContactForce, HasTheDerivativesOfItsDifferenceQuotients)
 
         const T q = 0.1 * T(i % 7 - 3);
         const T y = T(0.01) * T(i);
-        const auto arc = [&](const T& place) { return force_on_arc(side, q, place); };
+        const auto arc = [&](const T& place) {
+            return force_on_arc(side, q, sine_and_cosine(place));
+        };
         EXPECT_LT(abs(arc(y).along_slope - (arc(y + h).along - arc(y - h).along) / (2 * h)), 1e-25);
         EXPECT_LT(abs(arc(y).normal_slope - (arc(y + h).normal - arc(y - h).normal) / (2 * h)),
                   1e-25);
     }
+}
+
+TEST(ContactForce, HasAFourthDerivativeBelowItsBound)
+{
+    using T = Digits50;
+    std::mt19937_64 generator(9);
+    Numbers uniform(0, 1);
+    double closest = 0;
+    for (int i = 0; i < 300; ++i) {
+        const ContactSide<T> side = random_side<T>(generator);
+        const T slenderness(0.1 + 0.6 * uniform(generator));
+        const T tilt(uniform(generator));
+        const T rate(2 * uniform(generator) - 1);
+        const T size(2 * uniform(generator) * uniform(generator));
+        const T frequency(4 * uniform(generator) * uniform(generator));
+        const T phase(6 * uniform(generator));
+        // The push is size sin(phase + frequency tau).
+        constexpr int order = 14;
+        const auto push = harmonic_series<order>(
+            {T(size * sin(phase)), T(size * frequency * cos(phase))}, frequency);
+        const auto motion = Equations<Theory::nonlinear>::series<order>(BlockSide{slenderness},
+                                                                        tilt, rate, push, T(1));
+        const auto force_at = [&](const T& time) {
+            const auto sum = [&](const auto& series) -> T {
+                T value(0);
+                for (std::size_t k = series.size(); k-- > 0;) {
+                    value = value * time + series[k];
+                }
+                return value;
+            };
+            return force_while_rocking(
+                side, slenderness,
+                MovingBlock<T, T>{sum(motion.tilt), sum(motion.rate), sum(push), T(0)});
+        };
+        const T h(1e-8); // the difference has an error of h^2, and a round-off of 1e-50 / h^4
+        const auto difference = [&](T ContactForce<T>::*part) -> T {
+            const auto at = [&](int k) -> T { return force_at(k * h).*part; };
+            return (at(-2) - 4 * at(-1) + 6 * at(0) - 4 * at(1) + at(2)) / (h * h * h * h);
+        };
+        const T along = difference(&ContactForce<T>::along);
+        const T normal = difference(&ContactForce<T>::normal);
+        const T square = frequency * frequency;
+        const T bound =
+            fourth_derivative_of_force<T>(side.inertia, abs(rate),
+                                          {sqrt(1 + size * size), size * frequency, size * square,
+                                           size * square * frequency, size * square * square});
+        const double share(sqrt(along * along + normal * normal) / bound);
+        EXPECT_LT(share, 1) << i;
+        closest = std::max(closest, share);
+    }
+    // Where all terms have the same sign the bound is close; one without a term would be exceeded.
+    EXPECT_GT(closest, 0.2);
 }
 
 TEST(ContactForce, AtUpliftIsDirectedAtTheCentreOfMassWhateverTheIncline)
@@ -209,7 +264,8 @@ TEST(ContactForce, OnAnArcIsThatOfTheSameMotion)
         const double rate = 2 * uniform(generator) - 1;
         const double c =
             Equations<Theory::nonlinear>::separatrix_rate(BlockSide{slenderness}, tilt);
-        const auto arc = force_on_arc(side, (c - rate) * (c + rate), slenderness - tilt);
+        const auto arc =
+            force_on_arc(side, (c - rate) * (c + rate), sine_and_cosine(slenderness - tilt));
         const auto force =
             force_while_rocking(side, slenderness, MovingBlock<double, double>{tilt, rate, 0, 0});
         EXPECT_NEAR(arc.along, force.along, 1e-14);
@@ -267,7 +323,7 @@ TEST(ContactDemand, BetweenTwoPlacesIsThatOfTheExtremesWithin)
         const double q = 0.6 * (uniform(generator) - 0.5);
         const double first = -0.5 * uniform(generator);
         const double last = 0.1 + 0.8 * uniform(generator);
-        const auto force_at = [&](double y) { return force_on_arc(side, q, y); };
+        const auto force_at = [&](double y) { return force_on_arc(side, q, sine_and_cosine(y)); };
         const auto found = demand_between(first, last, 8, force_at);
         double friction = 0;
         double normal = 2;
@@ -343,7 +399,7 @@ TEST(FreeContact, IsThatOfFineSamplesOfTheMotion)
         const double tilt = 2 * block.slenderness * uniform(generator);
         const double rate = 2.5 * block.slenderness * (2 * uniform(generator) - 1);
         const State<double> state{tilt, rate, 1};
-        const auto found = free_contact(state, block, sides);
+        const auto found = free_contact(state, block, sides, true);
         // Where the block passes alpha, the last sample is up to one interval before.
         constexpr int samples = 500;
         const auto seen = sampled(state, block, sides, 12, samples);
@@ -359,11 +415,9 @@ TEST(FreeContact, IsThatOfFineSamplesOfTheMotion)
             // Beyond the samples, only the limit of many arcs is larger.
             double limit = 0;
             for (const double side : {1.0, -1.0}) {
-                const double alpha = seen_from(side, block).slenderness;
-                const double top =
-                    Equations<Theory::nonlinear>::separatrix_rate(BlockSide{alpha}, 0.0);
-                limit = std::max(limit,
-                                 force_on_arc(sides.seen_from(side), top * top, alpha).friction());
+                limit = std::max(
+                    limit,
+                    standing_contact(seen_from(side, block), sides.seen_from(side)).friction);
             }
             EXPECT_LE(found.friction, std::max(seen.friction, limit) * (1 + 5.0 / samples)) << i;
         }

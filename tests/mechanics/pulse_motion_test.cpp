@@ -29,6 +29,25 @@ TEST_P(EveryPulse, HasPeakOne)
     EXPECT_NEAR(peak, GetParam() == PulseKind::antisymmetric_ricker ? 1.000086 : 1.0, 1e-6);
 }
 
+TEST_P(EveryPulse, HasDerivativesBelowTheirBounds)
+{
+    const PulseMotion<double> pulse = motion(1.0);
+    double factorial = 1;
+    for (int order = 1; order <= 4; ++order) {
+        factorial *= order;
+        double largest = 0;
+        for (int i = 0; i < samples; ++i) {
+            const auto f = pulse.series<5>(1.0, phase_number(i, pulse), 1.0);
+            largest = std::max(largest, factorial * std::abs(f[std::size_t(order)]));
+        }
+        const double bound = pulse.largest_derivative(order);
+        EXPECT_LE(largest, bound * (1 + 1e-14)) << order;
+        // The harmonics of a modulated sine are not all at their peaks at the same phase, and the
+        // bound of a wavelet is one of all orders.
+        EXPECT_GE(largest, 0.25 * bound) << order;
+    }
+}
+
 TEST_P(EveryPulse, HasNoExtremumExceptItsPeaks)
 {
     const PulseMotion<double> pulse = motion(1.0);

@@ -1,71 +1,100 @@
-// What the contact of a block must bear during the forced stage.
+// What the contact must bear during the ground motion: the forces at the ends of every step, and
+// extremes within those steps in which a bound allows a larger friction or a smaller normal force.
 #pragma once
 
 #include "overturn/integrate/rocking_step.hpp"
-#include "overturn/mechanics/contact.hpp"
+#include "overturn/mechanics/free_contact.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
 
 namespace overturn {
 
-/// The block at a share of a step under a pulse, which begins at `now`.
+/// A block under a pulse. on: a phase of the smooth piece.
 template <Number T>
-MovingBlock<T, T> moving_block(const PulseExcitation<T>& excitation, const Rocking<T>& now,
-                               const T& phase_step, const T& share, const StepMotion<T>& motion)
+MovingBlock<T, T> moving_block(const PulseExcitation<T>& excitation, const Rocking<T>& block,
+                               const T& on)
 {
-    const T& frequency = excitation.frequency;
-    const auto push = excitation.motion.template series<2>(
-        now.side * excitation.acceleration, now.phase + share * phase_step, frequency, now.phase);
-    const T steps_per_time = frequency / select<T>(phase_step > 0, phase_step, 1);
-    return {motion.position, motion.rate * steps_per_time, push[0], push[1]};
+    const auto push = excitation.motion.template series<2>(block.side * excitation.acceleration,
+                                                           block.phase, excitation.frequency, on);
+    return {block.tilt, block.rate, push[0], push[1]};
 }
+
+/// The tilt and the rate at both ends of a step [rad].
+template <Number T>
+struct StepEnds {
+    T tilt;
+    T rate;
+    T end_tilt;
+    T end_rate;
+};
+
+/// A step as the contact sees it. The functions return MovingBlock: at its beginning, at its end
+/// and at a share of it; the tilt at a share of it.
+template <Number T, class Begin, class End, class At, class TiltAt>
+struct SeenStep {
+    T duration;     ///< with respect to tau
+    T push_slope;   ///< bound of the derivative of the push, if it is piecewise linear
+    bool is_joined; ///< the force at its beginning is that at the end of the step before it
+    Begin begin;
+    End end;
+    At at;
+    TiltAt tilt_at;
+};
 
 /// Follows the contact. A block beyond alpha that does not come back has overturned, so that what
 /// its contact bears there counts only once it comes back.
 template <Number T>
 class ContactWatch {
+    using S = scalar_t<T>;
     using Mask = mask_t<T>;
+    using Force = ContactForce<T>;
 
 public:
-    explicit ContactWatch(const ContactSides<T>& sides) : sides_(sides)
+    explicit ContactWatch(const ContactSides<T>& sides)
+        : sides_(sides), inertia_(greater<T>(sides.plus.inertia, sides.minus.inertia))
     {
         kept_ = demand_of(force_at_rest(sides.plus, T(0), T(0))); // before the motion
     }
 
-    /// The trial of a step on a side. start: the tilt at its beginning [rad]; motion_at(share)
-    /// returns the MovingBlock at a share of the step. Not inlined: it would change what the
-    /// compiler does with other scenes.
-    [[gnu::noinline]] void see_step(const T& side, const T& slenderness, const T& start, int parts,
-                                    const auto& motion_at)
+    /// The side of the block has changed. ground: see fourth_derivative_of_force().
+    void see_side(const T& side, const T& slenderness, const std::array<T, 5>& ground)
     {
-        const ContactSide<T> seen = sides_.seen_from(side);
-        const auto force_at = [&](const T& share) {
-            return force_while_rocking(seen, slenderness, motion_at(share));
-        };
-        const auto height_at = [&](const T& share) -> T {
-            return motion_at(share).tilt - slenderness;
-        };
-        begins_beyond_ = start > slenderness;
-        ends_beyond_ = height_at(T(1)) > 0;
-        const Mask passes = begins_beyond_ != ends_beyond_;
-        T pass(1);
-        if (any<T>(passes)) {
-            pass = select<T>(passes, root_between<T>(0, 1, passes, height_at), 1);
-            after_pass_ = demand_between<T>(pass, 1, parts, force_at);
-        }
-        before_pass_ = demand_between<T>(0, pass, parts, force_at);
+        side_ = sides_.seen_from(side);
+        slenderness_ = slenderness;
+        ground_ = ground;
+        fastest_ = T(0);
+        is_joined_ = false;
     }
 
-    /// The step was taken in these lanes.
-    void take_step(const Mask& lanes)
+    /// The rate has changed since the last step, or the side of a symmetric block.
+    void turn(const T& side)
     {
-        const Mask out = lanes && ends_beyond_ && !begins_beyond_;
-        const Mask in = lanes && begins_beyond_ && !ends_beyond_;
-        beyond_.include(before_pass_, lanes && begins_beyond_);
-        kept_.include(before_pass_, lanes && !begins_beyond_);
-        kept_.include(beyond_, in);
-        kept_.include(after_pass_, in);
-        beyond_.forget(in || out);
-        beyond_.include(after_pass_, out);
+        side_ = sides_.seen_from(side);
+        is_joined_ = false;
+    }
+
+    /// A step of these lanes. parts_of_two: how often a step with a suspect is halved before the
+    /// extreme is searched for.
+    template <int halvings>
+    void see_step(const StepEnds<T>& ends, const Mask& lanes, const auto& step)
+    {
+        const bool is_joined = is_joined_ && step.is_joined;
+        const Force first = is_joined ? last_ : force_of(step.begin());
+        const Force last = force_of(step.end());
+        last_ = chosen(lanes, last, first);
+        is_joined_ = true;
+        const Mask begins_beyond = ends.tilt > slenderness_;
+        const Mask ends_beyond = ends.end_tilt > slenderness_;
+        if (!is_joined) {
+            include(demand_of(first), lanes, begins_beyond);
+        }
+        const Mask passes = lanes && begins_beyond != ends_beyond;
+        const Part whole{first, last, T(0), T(1), step.duration, margin_of(ends, lanes, step)};
+        if (any<T>(passes)) {
+            see_passing<halvings>(whole, lanes, passes, begins_beyond, step);
+        } else {
+            include(demand_of(last), lanes, begins_beyond);
+            see_part<halvings>(whole, lanes, begins_beyond, step);
+        }
     }
 
     /// The block rests at times when it must bear this.
@@ -76,24 +105,206 @@ public:
 
     const ContactSides<T>& sides() const { return sides_; }
 
-    /// What the contact had to bear so far. gone: the lanes that do not come back from beyond
-    /// alpha.
-    ContactDemand<T> demand(const Mask& gone) const
+    /// What the contact had to bear so far and bears later. gone: the lanes that do not come back
+    /// from beyond alpha.
+    ContactDemand<T> demand(const Mask& gone, const ContactDemand<T>& later) const
     {
         ContactDemand<T> demand = kept_;
         demand.include(beyond_, !gone);
-        demand.normal = demand.normal / sides_.plus.cosine;
-        return demand;
+        demand.include(later, gone || !gone);
+        const T infinite(std::numeric_limits<S>::infinity());
+        return {select<T>(demand.normal > 0, demand.friction, infinite),
+                demand.normal / sides_.plus.cosine};
     }
 
 private:
+    /// A part of a step, from the share `from` on.
+    struct Part {
+        Force first;
+        Force last;
+        T from;
+        T width; ///< [steps]
+        T duration;
+        T margin; ///< see margin_of()
+    };
+
+    Force force_of(const auto& block) const
+    {
+        return force_while_rocking(side_, slenderness_, block);
+    }
+
+    static Force chosen(const Mask& mask, const Force& yes, const Force& no)
+    {
+        return {select<T>(mask, yes.along, no.along), select<T>(mask, yes.normal, no.normal),
+                select<T>(mask, yes.along_slope, no.along_slope),
+                select<T>(mask, yes.normal_slope, no.normal_slope)};
+    }
+
+    void include(const ContactDemand<T>& demand, const Mask& lanes, const Mask& beyond)
+    {
+        kept_.include(demand, lanes && !beyond);
+        beyond_.include(demand, lanes && beyond);
+    }
+
+    /// A force over a step of length h is the cubic through its values and slopes at both ends plus
+    /// at most
+    ///
+    ///     M t^2 (h - t)^2 / 24 <= M h^4 / 288 (b1 + b2)
+    ///
+    /// with M the bound of its fourth derivative, and b1, b2 the inner Bernstein polynomials: those
+    /// of the cubic in Bernstein form, raised by M h^4 / 288, bound the force.
+    T margin_of(const StepEnds<T>& ends, const Mask& lanes, const auto& step)
+    {
+        const T speed = greater<T>(abs(ends.rate), abs(ends.end_rate));
+        const T fastest = fma(0.5 * step.duration, ground_[0], speed); // |omega'| <= |c|
+        const Mask grows = lanes && (fastest > fastest_ || step.push_slope > ground_[1]);
+        if (any<T>(grows)) {
+            fastest_ = select<T>(grows, greater<T>(1.5 * fastest, fastest_), fastest_);
+            ground_[1] = select<T>(grows, greater<T>(2 * step.push_slope, ground_[1]), ground_[1]);
+            roughness_ = fourth_derivative_of_force(inertia_, fastest_, ground_);
+        }
+        const T square = step.duration * step.duration;
+        return roughness_ * T(S(1) / 288) * (square * square);
+    }
+
+    /// A step within which the block passes alpha in the lanes `passes`.
+    template <int halvings>
+    [[gnu::noinline]] void see_passing(const Part& whole, const Mask& lanes, const Mask& passes,
+                                       const Mask& begins_beyond, const auto& step)
+    {
+        const auto height_at = [&](const T& share) -> T {
+            return step.tilt_at(share) - slenderness_;
+        };
+        const T pass = select<T>(passes, root_between<T>(T(0), T(1), passes, height_at), T(1));
+        const Force there = chosen(passes, force_of(step.at(pass)), whole.last);
+        const T rest = 1 - pass;
+        const auto part = [&](const Force& first, const Force& last, const T& from,
+                              const T& width) -> Part {
+            const T square = width * width;
+            return {
+                first, last, from, width, whole.duration * width, whole.margin * (square * square)};
+        };
+        include(demand_of(there), lanes, begins_beyond);
+        see_part<halvings>(part(whole.first, there, T(0), pass), lanes, begins_beyond, step);
+        // A block that comes back had to bear what it bore beyond alpha.
+        kept_.include(beyond_, passes && begins_beyond);
+        beyond_.forget(passes);
+        const Mask beyond_now = passes && !begins_beyond;
+        include(demand_of(there), passes, beyond_now);
+        include(demand_of(whole.last), passes, beyond_now);
+        see_part<halvings>(part(there, whole.last, pass, rest), passes, beyond_now, step);
+    }
+
+    template <int halvings>
+    [[gnu::always_inline]] void see_part(const Part& part, const Mask& lanes, const Mask& beyond,
+                                         const auto& step)
+    {
+        const T most = greater<T>(kept_.friction, beyond_.friction);
+        const T least = lesser<T>(kept_.normal, beyond_.normal);
+        const T third = part.duration * T(S(1) / 3);
+        const T normal_1 = fma(third, part.first.normal_slope, part.first.normal) - part.margin;
+        const T normal_2 = fma(-third, part.last.normal_slope, part.last.normal) - part.margin;
+        const T along_1 = abs(fma(third, part.first.along_slope, part.first.along)) + part.margin;
+        const T along_2 = abs(fma(-third, part.last.along_slope, part.last.along)) + part.margin;
+        const T infinite(std::numeric_limits<S>::infinity());
+        const Mask slips =
+            lanes && most < infinite && (along_1 > most * normal_1 || along_2 > most * normal_2);
+        const Mask lifts = lanes && (normal_1 < least || normal_2 < least);
+        if (any<T>(slips || lifts)) {
+            if constexpr (halvings > 0) {
+                halve<halvings>(part, slips || lifts, beyond, step);
+            } else {
+                search(part, slips, lifts, beyond, step);
+            }
+        }
+    }
+
+    template <int halvings>
+    [[gnu::noinline]] void halve(const Part& part, const Mask& lanes, const Mask& beyond,
+                                 const auto& step)
+    {
+        const T half = 0.5 * part.width;
+        const T middle = part.from + half;
+        const Force there = force_of(step.at(middle));
+        include(demand_of(there), lanes, beyond);
+        const T duration = 0.5 * part.duration;
+        const T margin = part.margin * T(S(1) / 16);
+        see_part<halvings - 1>({part.first, there, part.from, half, duration, margin}, lanes,
+                               beyond, step);
+        see_part<halvings - 1>({there, part.last, middle, half, duration, margin}, lanes, beyond,
+                               step);
+    }
+
+    /// Finds the largest friction and the smallest normal force within a part.
+    [[gnu::noinline]] void search(const Part& part, const Mask& slips, const Mask& lifts,
+                                  const Mask& beyond, const auto& step)
+    {
+        const Mask outward = part.first.along + part.last.along > 0;
+        const auto friction_of = [&](const Force& force) -> FunctionSample<T> {
+            const T ratio = force.along / force.normal;
+            const T slope = (force.along_slope - ratio * force.normal_slope) / force.normal;
+            return {T(0), select<T>(outward, ratio, -ratio), select<T>(outward, slope, -slope)};
+        };
+        const auto relief_of = [](const Force& force) -> FunctionSample<T> {
+            return {T(0), -force.normal, -force.normal_slope};
+        };
+        find_maximum(part, slips, beyond, step, friction_of);
+        find_maximum(part, lifts, beyond, step, relief_of);
+    }
+
+    /// Includes the demand at the maximum of a function within a part, if the function increases at
+    /// its beginning and decreases at its end: at that of the cubic through its values and slopes
+    /// at both ends, again for the part that still contains the maximum.
+    void find_maximum(const Part& part, const Mask& lanes, const Mask& beyond, const auto& step,
+                      const auto& function_of)
+    {
+        FunctionSample<T> low = function_of(part.first);
+        FunctionSample<T> high = function_of(part.last);
+        low.place = part.from;
+        high.place = part.from + part.width;
+        Mask open = lanes && low.slope > 0 && high.slope < 0;
+        constexpr int most_passes = 6;
+        for (int pass = 0; pass < most_passes && any<T>(open); ++pass) {
+            const T width = high.place - low.place;
+            const T time = width * step.duration;
+            const T rise = 3 * (high.value - low.value);
+            const T at_low = time * low.slope;
+            const T at_high = time * high.slope;
+            const T bend = rise - (at_low + at_low) - at_high;
+            const T twist = 3 * (at_low + at_high) - (rise + rise);
+            const T square = fma(bend, bend, -(twist * at_low));
+            const T divisor = sqrt(greater<T>(square, 0)) - bend;
+            const T share = at_low / select<T>(divisor > 0, divisor, at_low + at_low);
+            const T place = fma(width, lesser<T>(greater<T>(share, 0), 1), low.place);
+            const Force force = force_of(step.at(place));
+            include(demand_of(force), open, beyond);
+            FunctionSample<T> there = function_of(force);
+            there.place = place;
+            // What is left of the rise of a parabola.
+            const T curvature = (at_low - at_high) / (time * time);
+            const Mask far = there.slope * there.slope > T(S(1e-13)) * curvature;
+            const Mask rises = there.slope > 0;
+            const auto replace = [&](FunctionSample<T>& end, const Mask& by) {
+                end = {select<T>(by, there.place, end.place), select<T>(by, there.value, end.value),
+                       select<T>(by, there.slope, end.slope)};
+            };
+            replace(low, rises);
+            replace(high, !rises);
+            open = open && far;
+        }
+    }
+
     ContactSides<T> sides_;
+    T inertia_; // the larger one
+    ContactSide<T> side_ = sides_.plus;
+    T slenderness_ = T(0);
+    std::array<T, 5> ground_{}; // see fourth_derivative_of_force()
+    T fastest_ = T(0);          // the rate for which the next one is valid
+    T roughness_ = T(0);        // a bound of the fourth derivative of the force
     ContactDemand<T> kept_;
-    ContactDemand<T> beyond_;      // since the block passed alpha
-    ContactDemand<T> before_pass_; // in the latest step, until it passes alpha
-    ContactDemand<T> after_pass_;
-    Mask begins_beyond_;
-    Mask ends_beyond_;
+    ContactDemand<T> beyond_; // since the block passed alpha
+    Force last_{T(0), T(1)};  // at the end of the latest step
+    bool is_joined_ = false;  // the next step begins there
 };
 
 } // namespace overturn

@@ -56,13 +56,11 @@ class ForcedStage {
     using E = estimate_t<T>;
     using Mask = mask_t<T>;
     static constexpr bool is_recorded = !std::same_as<Excitation, PulseExcitation<T>>;
-    // 50 digits settle verdicts only.
-    static constexpr bool may_watch =
-        outputs.peak && Equations<theory>::has_contact_forces && std::same_as<scalar_t<E>, double>;
+    static constexpr bool may_watch = outputs.contact;
+    static_assert(!may_watch || Equations<theory>::has_contact_forces);
 
 public:
-    /// uncertain_impact: used only if the error is an output. contact: to watch it, only with the
-    /// peak and in the nonlinear theory.
+    /// uncertain_impact: used only if the error is an output. contact: only if it is an output.
     ForcedStage(const Block<T>& block, const Excitation& excitation, const S& tolerance,
                 UncertainImpact uncertain_impact = UncertainImpact::go_on,
                 [[maybe_unused]] const std::optional<ContactSides<E>>& contact = {})
@@ -92,8 +90,10 @@ public:
                        .last_impact = T(std::numeric_limits<S>::infinity()),
                        .lowest_turn = T(std::numeric_limits<S>::infinity())};
         if constexpr (may_watch) {
+            followed_ = none;
             if (contact) {
                 watch_.emplace(*contact);
+                see_side();
             }
         }
         if (is_two_sided_) {
@@ -114,10 +114,11 @@ public:
     /// Takes one step in every active lane and handles the event at its end.
     void advance()
     {
-        const auto see = [&](int parts, const auto& motion) {
+        const auto see = [&]<int halvings>(const auto& end, const Mask& lanes, const auto& step) {
             if_watched([&](auto& watch) {
-                watch.see_step(estimate_of(now_.side), estimate_of(block_.slenderness),
-                               estimate_of(now_.tilt), parts, motion());
+                watch.template see_step<halvings>({estimate_of(now_.tilt), estimate_of(now_.rate),
+                                                   estimate_of(end.tilt), estimate_of(end.rate)},
+                                                  active_ && lanes, step);
             });
         };
         const auto step =
@@ -125,15 +126,15 @@ public:
         count_step(step.broken);
         const Mask moved = active_ && step.moved;
         if constexpr (outputs.error) {
-            margin_error_.pass_step(block_, excitation_, now_, step, moved);
+            margin_error_.pass_step(block_, excitation_, now_, step, but_followed(moved));
         }
         if constexpr (outputs.peak) {
+            const Mask counted = but_followed(moved);
             T& peak = end_of_run_.peak;
-            peak = select<T>(moved, greater<T>(step.extremes.peak, peak), peak);
+            peak = select<T>(counted, greater<T>(step.extremes.peak, peak), peak);
             T& turn = end_of_run_.lowest_turn;
-            turn = select<T>(moved, lesser<T>(step.extremes.lowest_turn, turn), turn);
+            turn = select<T>(counted, lesser<T>(step.extremes.lowest_turn, turn), turn);
         }
-        if_watched([&](auto& watch) { watch.take_step(moved); });
         now_.phase = select<T>(moved, step.phase, now_.phase);
         now_.tilt = select<T>(moved, step.tilt, now_.tilt);
         now_.rate = select<T>(moved, step.rate, now_.rate);
@@ -173,10 +174,36 @@ public:
     {
         const State<T>& state = end_of_run_.state;
         const Mask returns = state.rate < Equations<theory>::separatrix_rate(block_, state.tilt);
-        return watch_->demand(end_of_run_.fell || !returns);
+        const Mask rocks_on = !(end_of_run_.fell || end_of_run_.is_stopped());
+        const State<E> end{estimate_of(state.tilt), estimate_of(state.rate),
+                           estimate_of(state.side)};
+        return watch_->demand(end_of_run_.fell || !returns,
+                              free_contact(end, estimate_of(block_), watch_->sides(), rocks_on));
     }
 
 private:
+    /// These lanes without those in which a series of bounces that dies out is followed, which only
+    /// the contact sees.
+    Mask but_followed(const Mask& lanes) const
+    {
+        if constexpr (may_watch) {
+            return lanes && !followed_;
+        } else {
+            return lanes;
+        }
+    }
+
+    void see_side()
+    {
+        if_watched([&](auto& watch) {
+            const auto ground = excitation_.ground_bounds();
+            std::array<E, 5> bounds;
+            std::ranges::transform(ground, bounds.begin(),
+                                   [](const T& bound) { return estimate_of(bound); });
+            watch.see_side(estimate_of(now_.side), estimate_of(block_.slenderness), bounds);
+        });
+    }
+
     /// Calls visit(watch) if the contact is watched.
     void if_watched([[maybe_unused]] const auto& visit)
     {
@@ -242,13 +269,19 @@ private:
             }
             see(last, lanes);
         } else {
-            constexpr int parts = 64;
-            const auto force_at = [&](const T& phase) {
-                const auto push =
-                    excitation_.template series<2>(excitation_.acceleration, phase, T(1));
-                return force_at_rest(side, push[0], push[1]);
+            // Both are monotone functions of the push.
+            const auto see = [&](const T& phase, const Mask& at) {
+                const T push = excitation_.ground(phase);
+                watch_->see_rest(demand_of(force_at_rest(side, push, push)), at);
             };
-            watch_->see_rest(demand_between<T>(first, last, parts, force_at), lanes);
+            see(first, lanes);
+            see(last, lanes);
+            for (const S& peak : excitation_.motion.peaks) {
+                const Mask within = lanes && first < T(peak) && T(peak) < last;
+                if (any<T>(within)) {
+                    see(T(peak), within);
+                }
+            }
         }
     }
 
@@ -281,6 +314,7 @@ private:
         }
         record(EventKind::uplift, lifted);
         finish(lanes && !lifted);
+        if_watched([&](auto& watch) { watch.turn(estimate_of(now_.side)); });
         stepper_.lift(now_, lifted);
     }
 
@@ -308,6 +342,7 @@ private:
         excitation_.frequency = frequency_ / block_.pace;
         fastest_series_ = fastest_bounce_series(block_, excitation_);
         stepper_.see_side(block_, excitation_.frequency);
+        see_side();
     }
 
     /// Freezes the lanes in their current state.
@@ -323,7 +358,8 @@ private:
 
     void count_step(const Mask& broken)
     {
-        end_of_run_.steps = select<T>(active_, end_of_run_.steps + 1, end_of_run_.steps);
+        end_of_run_.steps =
+            select<T>(but_followed(active_), end_of_run_.steps + 1, end_of_run_.steps);
         const Mask too_many = active_ && end_of_run_.steps >= step_limit_;
         const Mask not_finite = active_ && broken;
         if (any<T>(too_many || not_finite)) {
@@ -347,38 +383,49 @@ private:
         if constexpr (outputs.events) { // show the individual bounces
             rests = rests && after.rate < T(S(1) / 1024) * block_.slenderness;
         }
-        if_watched([&](auto&) { rests = any<T>(rests) ? ends_series(rests, after.rate) : rests; });
+        const Mask counted = but_followed(lanes);
+        const Mask dies_out = but_followed(rests);
+        if constexpr (may_watch) {
+            if (watch_) {
+                const Mask series = lanes && (rests || followed_);
+                rests = any<T>(series) ? ends_series(series, after.rate) : series;
+                followed_ = (followed_ || series) && !rests;
+            }
+        }
         if constexpr (outputs.error) {
-            margin_error_.pass_impact(block_, excitation_, now_, lanes, rests);
+            margin_error_.pass_impact(block_, excitation_, now_, counted, dies_out);
         }
         // For filling, which is for pulses only.
         if constexpr (outputs.peak && !is_recorded) {
             const T push = now_.side * excitation_.ground(now_.phase);
             const Mask outward = Equations<theory>::acceleration(block_, T(0), push) > 0;
             T& softest = end_of_run_.softest_impact;
-            softest =
-                select<T>(lanes && !rests && outward && -now_.rate < softest, -now_.rate, softest);
+            softest = select<T>(counted && !dies_out && outward && -now_.rate < softest, -now_.rate,
+                                softest);
             T& last = end_of_run_.last_impact;
-            last = select<T>(lanes && !rests, -now_.rate, last);
+            last = select<T>(counted && !dies_out, -now_.rate, last);
         }
         now_.rate = select<T>(lanes, after.rate, now_.rate);
         now_.side = select<T>(lanes, after.side, now_.side);
         if constexpr (outputs.impacts) {
             T& impacts = end_of_run_.impacts;
-            impacts = select<T>(lanes, impacts + 1, impacts);
+            impacts = select<T>(counted, impacts + 1, impacts);
         }
         if (is_two_sided_) {
             change_sides();
         }
         record(EventKind::impact, lanes);
         record(EventKind::rest, rests);
-        end_of_run_.rested = end_of_run_.rested || rests;
-        if (any<T>(rests)) {
-            if constexpr (outputs.error) {
-                margin_error_.forget(rests);
+        end_of_run_.rested = end_of_run_.rested || dies_out;
+        if constexpr (outputs.error) {
+            if (any<T>(dies_out)) {
+                margin_error_.forget(dies_out);
             }
+        }
+        if (any<T>(rests)) {
             wait_for_uplift(rests);
         }
+        if_watched([&](auto& watch) { watch.turn(estimate_of(now_.side)); });
         stepper_.turn(now_, lanes && active_);
         if constexpr (outputs.error) {
             if (uncertain_impact_ == UncertainImpact::stop) {
@@ -393,7 +440,9 @@ private:
     const T step_limit_;
 
     typename Method::template Stepper<
-        theory, T, Outputs{.error = outputs.error, .peak = outputs.peak}, Excitation>
+        theory, T,
+        Outputs{.error = outputs.error, .peak = outputs.peak, .contact = outputs.contact},
+        Excitation>
         stepper_;
     Rocking<T> now_;
     T lifted_; // phase of the latest uplift; the flank of a lobe lifts a block only once
@@ -407,6 +456,7 @@ private:
     T fastest_series_;
 
     [[no_unique_address]] OnlyIf<may_watch, std::optional<ContactWatch<E>>> watch_;
+    [[no_unique_address]] OnlyIf<may_watch, Mask> followed_; // see but_followed()
     [[no_unique_address]] OnlyIf<outputs.error, MarginError<theory, T>> margin_error_;
     [[no_unique_address]] OnlyIf<outputs.events, std::vector<Event<T>>> events_;
     UncertainImpact uncertain_impact_;

@@ -7,18 +7,17 @@ namespace overturn {
 struct Outputs {
     // Updated in every step. Chosen at compile time, so that they cost nothing if not wanted.
     bool impacts = false;
-    bool error = false;  ///< of the margin
-    bool peak = false;   ///< the largest tilt and how narrowly impacts were avoided; under a pulse,
-                         ///< not together with the error
-    bool events = false; ///< for a single block only
+    bool error = false;   ///< of the margin
+    bool peak = false;    ///< the largest tilt and how narrowly impacts were avoided
+    bool contact = false; ///< what it must bear; only in the nonlinear theory
+    bool events = false;  ///< for a single block only
 
     // Computed from the end of a run.
     bool region = false;
     bool margin = false;
     bool steps = false;
-    bool phase = false;   ///< at the end of the pulse, or at the fall
-    bool contact = false; ///< what it must bear, which a run with the peak can watch
-    bool grazes = false;  ///< lowest turn, softest and last impact, which a run with the peak has
+    bool phase = false;  ///< at the end of the pulse, or at the fall
+    bool grazes = false; ///< lowest turn, softest and last impact, which a run with the peak has
 };
 
 /// Whether a run continues once it is uncertain whether, or how fast, the block struck the ground.

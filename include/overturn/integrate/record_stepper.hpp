@@ -3,6 +3,7 @@
 // the series and ends the step. No step is repeated.
 #pragma once
 
+#include "overturn/integrate/contact_watch.hpp"
 #include "overturn/integrate/first_event.hpp"
 #include "overturn/integrate/taylor_errors.hpp"
 #include "overturn/mechanics/contact.hpp"
@@ -106,10 +107,12 @@ public:
             end.errors =
                 errors_.of(step, side_, pushes, end, error_of_estimates(series, estimate_of(h)));
         }
+        if constexpr (outputs.contact) {
+            see.template operator()<0>(end, active, seen_step(series, push, now, end));
+        }
         if constexpr (outputs.peak) {
             const auto& rough = estimate_of(series);
             const E length = estimate_of(h);
-            see(parts_seen, motion_within(series, push, length));
             const auto at = [&](const E& share) { return motion_at(rough, length, share); };
             const E peak = highest_tilt<E>(estimate_of(now.tilt), estimate_of(end.tilt),
                                            estimate_of(highest), estimate_of(so_far.peak), at);
@@ -119,21 +122,32 @@ public:
     }
 
 private:
-    static constexpr int parts_seen = 2; // of a step
-
-    /// For see(): returns the motion as a function of the share of the step, which has this length.
-    auto motion_within(const Series& series, const auto& push, const E& length) const
+    auto seen_step(const Series& series, const auto& push, const Rocking<T>& now,
+                   const auto& end) const
     {
-        return [&, this] {
-            return [rough = estimate_of(series), pushes = estimate_of(push), length,
-                    per_unit = estimate_of(time_.per_time)](const E& share) {
-                const E per_step = per_unit / select<E>(length > 0, length, 1);
-                const StepMotion<E> motion = motion_at(rough, length, share);
-                const auto ground = pushes.at(share * length);
-                return MovingBlock<E, std::remove_cvref_t<decltype(ground)>>{
-                    motion.position, motion.rate * per_step, ground, pushes.slope_over(per_unit)};
-            };
+        const E per_unit = estimate_of(time_.per_time);
+        const E length = estimate_of((end.phase - now.phase) * units_per_sample_);
+        const auto moving = [pushes = estimate_of(push), per_unit](const E& tilt, const E& rate,
+                                                                   const E& time) {
+            const auto ground = pushes.at(time);
+            return MovingBlock<E, std::remove_cvref_t<decltype(ground)>>{
+                tilt, rate, ground, pushes.slope_over(per_unit)};
         };
+        const auto slope = moving(E(0), E(0), E(0)).push_slope;
+        return SeenStep{
+            length * estimate_of(time_.unit),
+            E(abs(horizontal_of(slope)) + abs(gravity_of(slope, E(0)))),
+            false,
+            [=, &now] { return moving(estimate_of(now.tilt), estimate_of(now.rate), E(0)); },
+            [=, &end] { return moving(estimate_of(end.tilt), estimate_of(end.rate), length); },
+            [=, rough = estimate_of(series)](const E& share) {
+                const E time = share * length;
+                return moving(value_of_series(rough.tilt, time),
+                              value_of_series(rough.rate, time) * per_unit, time);
+            },
+            [&series, length](const E& share) {
+                return value_of_series(estimate_of(series).tilt, E(share * length));
+            }};
     }
 
     /// The longest step, in units, of at most `left`: for the last n, rate[n] h^n is at most

@@ -2,8 +2,8 @@
 // handles impacts, rest and uplift. see_side(): the blocks rock on other sides, of which these are
 // the properties. lift(), turn(): a block was lifted, or continues about its other corner. step():
 // one trial step in every lane; the results of inactive lanes are meaningless. so_far: the
-// StepExtremes of previous steps, if they are outputs; see(parts, motion_at): called with the
-// motion within the step, see ContactWatch::see_step().
+// StepExtremes of previous steps, if they are outputs; see(end, lanes, step): called with the step
+// as the contact sees it, see SeenStep, if the contact is an output.
 #pragma once
 
 #include "overturn/integrate/error_growth.hpp"

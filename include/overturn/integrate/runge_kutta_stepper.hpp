@@ -2,6 +2,7 @@
 // is found on the dense output; the step is then repeated so that it ends at the event.
 #pragma once
 
+#include "overturn/integrate/contact_watch.hpp"
 #include "overturn/integrate/first_event.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
 
@@ -115,8 +116,14 @@ public:
             if (excitation_.motion.has_kink()) {
                 remember(end_on(end.phase), moved);
             }
-        } else if constexpr (outputs.peak) {
-            see(parts_seen, motion_within({start, step, h}, now, phase_step));
+        }
+        if constexpr (outputs.contact) {
+            if (any<T>(moved)) {
+                see.template operator()<halvings>(
+                    end, moved, seen_step({start, step, h}, now, end, phase_step));
+            }
+        }
+        if constexpr (outputs.peak) {
             end.extremes = extremes({start, step, h}, end, so_far, moved && !arrived);
         }
         return end;
@@ -141,18 +148,27 @@ private:
         const T& length;
     };
 
-    static constexpr int parts_seen = 2; // of a step
+    static constexpr int halvings = 1; // of a step that the contact sees
 
-    /// For see(): returns the motion as a function of the share of the step.
-    auto motion_within(const TrialStep& trial, const Rocking<T>& now, const T& phase_step) const
+    auto seen_step(const TrialStep& trial, const Rocking<T>& now, const auto& end,
+                   const T& phase_step) const
     {
-        return [&, this] {
-            return [this, &now, phase_step,
-                    tilt =
-                        dense_output(trial.start, trial.step.end, trial.length)](const T& share) {
-                return moving_block(excitation_, now, phase_step, share, motion_at(tilt, share));
-            };
+        const auto moving = [&](const T& tilt, const T& rate, const T& phase) {
+            return moving_block(excitation_, {phase, tilt, rate, now.side}, now.phase);
         };
+        const Quintic<T> tilt = dense_output(trial.start, trial.step.end, trial.length);
+        const T per_step = 1 / select<T>(trial.length > 0, trial.length, 1);
+        return SeenStep{T((end.phase - now.phase) / excitation_.frequency),
+                        T(0),
+                        !excitation_.motion.has_kink(),
+                        [=, &now] { return moving(now.tilt, now.rate, now.phase); },
+                        [=, &end] { return moving(end.tilt, end.rate, end.phase); },
+                        [=, &now, &phase_step](const T& share) {
+                            const StepMotion<T> motion = motion_at(tilt, share);
+                            return moving(motion.position, motion.rate * per_step,
+                                          fma(share, phase_step, now.phase));
+                        },
+                        [=](const T& share) { return motion_at(tilt, share).position; }};
     }
 
     /// The stages are compiled for each pulse. Computing the pushes before the stages, or selecting

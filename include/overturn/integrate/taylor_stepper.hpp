@@ -3,6 +3,7 @@
 // is repeated.
 #pragma once
 
+#include "overturn/integrate/contact_watch.hpp"
 #include "overturn/integrate/first_event.hpp"
 #include "overturn/integrate/taylor_errors.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
@@ -96,31 +97,43 @@ public:
                 beyond = beyond + estimate_of(left_out_of(push, now.phase, h));
             }
             end.errors = errors_.of(taken, side_, pushes_at(now, h, end.phase), end, beyond);
-        } else if constexpr (outputs.peak) {
-            see(parts_seen, motion_within(series, now, h));
+        }
+        if constexpr (outputs.contact) {
+            see.template operator()<halvings>(end, active, seen_step(series, now, end, h));
+        }
+        if constexpr (outputs.peak) {
             end.extremes = extremes(taken, now, end, so_far);
         }
         return end;
     }
 
 private:
-    static constexpr int parts_seen = 8; // of a step
+    static constexpr int halvings = 2; // of a step that the contact sees
 
-    /// For see(): returns the motion as a function of the share of the step.
-    auto motion_within(const Series& series, const Rocking<T>& now, const T& h) const
+    auto seen_step(const Series& series, const Rocking<T>& now, const auto& end, const T& h) const
     {
-        return [&, this] {
-            return [this, &now, series, h](const T& share) {
-                return moving_block(excitation_, now, h * phase_per_unit_, share,
-                                    motion_at(series, h, share));
-            };
+        const auto moving = [&](const T& tilt, const T& rate, const T& phase) {
+            return moving_block(excitation_, {phase, tilt, rate, now.side}, now.phase);
         };
+        return SeenStep{
+            T((end.phase - now.phase) / excitation_.frequency),
+            T(0),
+            !excitation_.motion.has_kink(),
+            [=, &now] { return moving(now.tilt, now.rate, now.phase); },
+            [=, &end] { return moving(end.tilt, end.rate, end.phase); },
+            [=, &series, &now, &h, this](const T& share) {
+                const T time = share * h;
+                return moving(value_of_series(series.tilt, time),
+                              value_of_series(series.rate, time) * time_.per_time,
+                              fma(time, phase_per_unit_, now.phase));
+            },
+            [&series, &h](const T& share) { return value_of_series(series.tilt, T(share * h)); }};
     }
 
-    StepExtremes<T> extremes(const TaylorStep<order, T>& step, const Rocking<T>& now,
+    StepExtremes<T> extremes(const TaylorStep<known_order, T>& step, const Rocking<T>& now,
                              const StepEnd<T, outputs>& end, const auto& so_far) const
     {
-        const Series& series = step.known;
+        decltype(auto) series = leading<order>(step.known);
         const T& h = step.h;
         const auto at = [&](const T& share) { return motion_at(series, h, share); };
         const T per_step = h * time_.unit;

@@ -169,6 +169,39 @@ ContactForce<T> force_while_rocking(const ContactSide<T>& side, const T& slender
          gravity_slope + (turning_slope - swing * rate) * s - (turning * rate + swing_slope) * c});
 }
 
+/// An upper bound of the fourth derivative of the force, |d^4 (H + i V) / d tau^4|, on a smooth
+/// piece of the ground motion. rate: an upper bound of |omega|; ground[k]: upper bounds of
+/// |d^k c / d tau^k|, c = B - i g.
+///
+/// With e = exp(i y), the force is H + i V = B + i g + i lambda e'' because the centre of mass
+/// moves on a circle, and
+///
+///     e' = i y' e,   y'' = Re(c e)
+///
+/// Leibniz' rule bounds all derivatives of e and y by those of c.
+template <Number T>
+[[gnu::noinline, gnu::cold]] T fourth_derivative_of_force(const T& inertia, const T& rate,
+                                                          const std::array<T, 5>& ground)
+{
+    std::array<T, 7> e{T(1)};
+    std::array<T, 7> speed{rate}; // y' and its derivatives
+    for (std::size_t n = 0; n + 1 < e.size(); ++n) {
+        T e_next(0);
+        T speed_next(0);
+        double binomial = 1;
+        for (std::size_t k = 0; k <= n; ++k) {
+            e_next = fma(T(binomial) * speed[k], e[n - k], e_next);
+            if (k < ground.size()) {
+                speed_next = fma(T(binomial) * ground[k], e[n - k], speed_next);
+            }
+            binomial = binomial * double(n - k) / double(k + 1);
+        }
+        e[n + 1] = e_next;
+        speed[n + 1] = speed_next; // the last one is not used
+    }
+    return fma(inertia, e[6], ground[4]);
+}
+
 /// The force on a block at rest. slope: of the push, with respect to some variable.
 template <Number T, class Push>
 ContactForce<T> force_at_rest(const ContactSide<T>& side, const Push& push, const Push& slope)

@@ -1,8 +1,8 @@
-// What the contact of a freely rocking block must bear, after the ground motion.
+// What the contact of freely rocking blocks must bear, after the ground motion.
 #pragma once
 
 #include "overturn/mechanics/contact.hpp"
-#include "overturn/mechanics/free_rocking.hpp"
+#include "overturn/mechanics/theory/theories.hpp"
 
 namespace overturn {
 
@@ -12,19 +12,70 @@ namespace overturn {
 ///     horizontal:  lambda sin y (omega^2 - cos y)
 ///     vertical:    1 - lambda (sin^2 y + omega^2 cos y)
 template <Number T>
-ContactForce<T> force_on_arc(const ContactSide<T>& side, const T& q, const T& y)
+ContactForce<T> force_on_arc(const ContactSide<T>& side, const T& q, const SineAndCosine<T>& of_y)
 {
-    const auto [s, c] = sine_and_cosine(y);
+    const auto& [s, c] = of_y;
     const T& inertia = side.inertia;
-    const T half = sine_and_cosine(T(y / 2)).sine;
-    const T square = 4 * half * half - q;
+    const T square = 2 * (1 - c) - q;
     return on_base<T>(side,
                       {inertia * s * (square - c), 1 - inertia * (s * s + square * c),
                        inertia * (c * (square - c) + 3 * s * s), inertia * s * (square - 4 * c)});
 }
 
-/// What the contact must bear from this state on until the block rests or last passes alpha. block:
-/// as seen from the side of the state.
+/// What the contact must bear on an arc between two places, |y| < pi/2.
+///
+/// With a = 2 - q and x = cos y, on a level base the vertical force has its extremes at y = 0 and
+/// x = a/6, and on any base the friction has them where
+///
+///     (6 + 3 lambda) x^2 - a (1 + 5 lambda) x - 3 (1 - lambda) + lambda a^2 = 0
+template <Number T>
+ContactDemand<T> demand_on_arc(const ContactSide<T>& side, const T& q, const SineAndCosine<T>& low,
+                               const SineAndCosine<T>& high)
+{
+    const auto force_at = [&](const T& sine) {
+        return force_on_arc<T>(side, q, {sine, sqrt(greater<T>(1 - sine * sine, 0))});
+    };
+    if (any<T>(side.sine != 0)) {
+        constexpr int parts = 16;
+        return demand_between<T>(low.sine, high.sine, parts, force_at);
+    }
+    ContactDemand<T> demand = demand_of(force_on_arc(side, q, low));
+    const mask_t<T> all = q == q;
+    demand.include(demand_of(force_on_arc(side, q, high)), all);
+    const auto see = [&](const T& sine) {
+        const mask_t<T> within = low.sine < sine && sine < high.sine;
+        if (any<T>(within)) {
+            demand.include(demand_of(force_at(sine)), within);
+        }
+    };
+    const auto see_both = [&](const T& cosine) { // NaN is nowhere
+        const T sine = sqrt(1 - cosine * cosine);
+        see(sine);
+        see(-sine);
+    };
+    see(T(0));
+    const T a = 2 - q;
+    const T& inertia = side.inertia;
+    see_both(a * T(scalar_t<T>(1) / 6));
+    const T square = 6 + 3 * inertia;
+    const T half = 0.5 * a * (1 + 5 * inertia);
+    const T root = sqrt(half * half + square * (3 * (1 - inertia) - inertia * a * a));
+    see_both((half + root) / square);
+    see_both((half - root) / square);
+    return demand;
+}
+
+/// What the contact of a block that stands on its corner at the tilt 0, and does not move, must
+/// bear: the limit of infinitely many bounces.
+template <Number T>
+ContactDemand<T> standing_contact(const Block<T>& block, const ContactSide<T>& side)
+{
+    const T largest = Equations<Theory::nonlinear>::separatrix_rate(block, T(0));
+    return demand_of(force_on_arc(side, T(largest * largest), sine_and_cosine(block.slenderness)));
+}
+
+/// What the contact must bear in these lanes, from this state on until the block rests or last
+/// passes alpha. block: as seen from the side of the state.
 ///
 /// Of the arcs on one side, each is slower than the one before it. Where the force is directed
 /// inward, it decreases with the speed. Where it is directed outward, the friction increases
@@ -32,53 +83,61 @@ ContactForce<T> force_on_arc(const ContactSide<T>& side, const T& q, const T& y)
 /// approach, as long as tan^2 alpha < 1 / (1 - lambda). So two arcs on each side and that limit
 /// suffice, except for a flat block.
 template <Number T>
-ContactDemand<T> free_contact(const State<T>& state, const Block<T>& block,
-                              const ContactSides<T>& sides)
+[[gnu::noinline]] ContactDemand<T> free_contact(const State<T>& state, const Block<T>& block,
+                                                const ContactSides<T>& sides,
+                                                const mask_t<T>& lanes)
 {
-    constexpr int parts = 16;
-    constexpr Theory theory = Theory::nonlinear;
+    using Mask = mask_t<T>;
+    using Nonlinear = Equations<Theory::nonlinear>; // the only theory with these forces
     ContactDemand<T> demand;
-    if (state.tilt == 0 && state.rate == 0) {
-        return demand;
-    }
     State<T> now = state;
     Block<T> on = block;
-    const auto is_flat = [&](const ContactSide<T>& side, const T& alpha) {
-        return (1 - side.inertia) * tan(alpha) * tan(alpha) > 1;
+    const auto is_flat = [&](const ContactSide<T>& side, const T& alpha) -> Mask {
+        const auto [s, c] = sine_and_cosine(alpha);
+        return (1 - side.inertia) * s * s > c * c;
     };
-    const bool flat = is_flat(sides.seen_from(now.side), on.slenderness) ||
+    const Mask flat = is_flat(sides.seen_from(now.side), on.slenderness) ||
                       is_flat(sides.seen_from(-now.side), on.other.slenderness);
-    for (int arc = 0; arc < (flat ? 200 : 4); ++arc) {
+    const Mask moves = lanes && !(state.tilt == 0 && state.rate == 0);
+    Mask open = moves;
+    Mask gone = open && !open; // overturned
+    const SineAndCosine<T> top{T(0), T(1)};
+    for (int arc = 0; arc < 200; ++arc) {
         const T y = on.slenderness - now.tilt;
-        const T c = Equations<theory>::separatrix_rate(on, now.tilt);
+        const T c = Nonlinear::separatrix_rate(on, now.tilt);
         const T q = (c - now.rate) * (c + now.rate);
-        const bool outward = now.rate > 0;
-        if (y <= 0 && (outward || now.rate >= c)) {
-            return demand; // beyond alpha, and further on
+        const Mask outward = now.rate > 0;
+        if (arc >= 4) {
+            open = open && flat;
         }
-        const bool overturns = outward && q <= 0;
-        const T turn = q > 0 ? T(2 * asin(sqrt(q) / 2)) : T(0);
-        const T first = overturns ? T(0) : outward ? lesser<T>(turn, on.slenderness) : y;
-        const T last = overturns ? y : on.slenderness;
-        const ContactSide<T> side = sides.seen_from(now.side);
-        demand.include(demand_between<T>(first, last, parts,
-                                         [&](const T& at) { return force_on_arc(side, q, at); }),
-                       true);
-        if (overturns) {
-            return demand;
+        gone = gone || (open && y <= 0 && (outward || now.rate >= c));
+        open = open && !gone;
+        if (!any<T>(open)) {
+            break;
         }
-        const T square = Equations<theory>::separatrix_rate(on, T(0));
-        const T speed = square * square - q;
-        now = {T(0), on.rate_ratio() * (speed > 0 ? T(sqrt(speed)) : T(0)), -now.side};
+        const auto either = [](const Mask& mask, const SineAndCosine<T>& yes,
+                               const SineAndCosine<T>& no) -> SineAndCosine<T> {
+            return {select<T>(mask, yes.sine, no.sine), select<T>(mask, yes.cosine, no.cosine)};
+        };
+        const Mask overturns = outward && q <= 0;
+        const SineAndCosine<T> here = sine_and_cosine(y);
+        const SineAndCosine<T> corner = sine_and_cosine(on.slenderness);
+        const SineAndCosine<T> turn{sqrt(greater<T>(q * (1 - 0.25 * q), 0)), 1 - 0.5 * q};
+        const SineAndCosine<T> low = either(
+            overturns, top, either(outward, either(turn.sine < corner.sine, turn, corner), here));
+        const SineAndCosine<T> high = either(overturns, here, corner);
+        demand.include(demand_on_arc(sides.seen_from(now.side), q, low, high), open);
+        gone = gone || (open && overturns);
+        open = open && !gone;
+        const T largest = Nonlinear::separatrix_rate(on, T(0));
+        const T speed = largest * largest - q;
+        now = {T(0), on.rate_ratio() * sqrt(greater<T>(speed, 0)), -now.side};
         on = on.turned();
     }
-    if (block.restitution < 1) {
-        for (const T& of : {now.side, T(-now.side)}) {
-            const T top = Equations<theory>::separatrix_rate(on, T(0));
-            demand.include(
-                demand_of(force_on_arc(sides.seen_from(of), T(top * top), on.slenderness)), true);
-            on = on.turned();
-        }
+    const Mask bounces = moves && !gone && block.restitution < 1;
+    if (any<T>(bounces)) {
+        demand.include(standing_contact(block, sides.seen_from(state.side)), bounces);
+        demand.include(standing_contact(block.turned(), sides.seen_from(-state.side)), bounces);
     }
     return demand;
 }

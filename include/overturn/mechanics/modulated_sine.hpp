@@ -62,6 +62,19 @@ struct ModulatedSine {
     /// |f''| is at most this [1].
     S largest_curvature() const { return abs(scale) * (2 + 3 * q * q); }
 
+    /// |f^(order)| is at most this [1].
+    S largest_derivative(int order) const
+    {
+        const auto of_harmonic = [&](const S& speed) -> S {
+            S power = speed;
+            for (int i = 0; i < order; ++i) {
+                power *= speed;
+            }
+            return abs(power) / 2;
+        };
+        return abs(scale) * (1 + of_harmonic(1 + q) + of_harmonic(1 - q));
+    }
+
     /// The phase at which amplitude |f| reaches 1 between two phases without an extremum between
     /// them.
     S phase_at(const Flank<S>& flank, const S& amplitude) const

@@ -37,6 +37,19 @@ struct PulseExcitation {
     /// An upper bound of |ground acceleration| over g [1].
     T largest_acceleration() const { return abs(acceleration); }
 
+    /// See fourth_derivative_of_force(); with respect to tau = p t, p: the unit of `frequency`.
+    std::array<T, 5> ground_bounds() const
+    {
+        const T size = abs(acceleration);
+        std::array<T, 5> bounds{sqrt(1 + size * size)};
+        T power = size;
+        for (int order = 1; order < 5; ++order) {
+            power = power * frequency;
+            bounds[std::size_t(order)] = T(motion.largest_derivative(order)) * power;
+        }
+        return bounds;
+    }
+
     /// In these lanes, the first uplift of a block at rest, at `phase` or later and after the
     /// uplift `latest` [rad]; infinite if there is none.
     T next_uplift(const mask_t<T>&, const T& phase, const T& latest) const

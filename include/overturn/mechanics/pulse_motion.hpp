@@ -102,6 +102,18 @@ struct PulseMotion {
     /// |f''| is less than this [1].
     S largest_curvature() const { return fastest > S(1) ? S(2 * fastest * fastest) : S(2); }
 
+    /// |f^(order)| is at most this on each smooth piece [1]; 0 < order <= 4.
+    S largest_derivative(int order) const
+    {
+        switch (form) {
+        case PulseForm::linear: return order == 1 && has_kink() ? S(2) / pi<S>() : S(0);
+        case PulseForm::harmonic: return S(1);
+        case PulseForm::wavelet: return S(largest_derivative_of_wavelet(pulse, order));
+        case PulseForm::modulated: break;
+        }
+        return sine.largest_derivative(order);
+    }
+
 private:
     /// Not inlined: its use of registers would make a step with any other pulse 7 % slower.
     template <int count, Number T>

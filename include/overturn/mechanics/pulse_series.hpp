@@ -5,6 +5,8 @@
 #include "overturn/mechanics/pulse.hpp"
 #include "overturn/number/unrolled.hpp"
 
+#include <cmath>
+
 namespace overturn {
 
 template <int count, Number T>
@@ -81,6 +83,21 @@ Coefficients<2, T> value_and_slope(const T& scale, const T& phase, const T& rate
 constexpr int derivative_of_gaussian(PulseKind wavelet)
 {
     return wavelet == PulseKind::symmetric_ricker ? 2 : 3;
+}
+
+/// An upper bound of |f^(order)| of a wavelet. By Cramer's inequality, the n-th derivative of
+/// exp(-z^2 / 2) is below 1.0865 sqrt(n!).
+inline double largest_derivative_of_wavelet(PulseKind wavelet, int order)
+{
+    const int m = derivative_of_gaussian(wavelet);
+    double square = 1.0865 * 1.0865; // of the bound
+    for (int n = 2; n <= order + m; ++n) {
+        square *= n;
+    }
+    for (int i = 0; i < order; ++i) {
+        square /= m;
+    }
+    return std::sqrt(square);
 }
 
 /// The first `count` Taylor coefficients in t of scale f(phase + rate t) for a wavelet f.

@@ -98,6 +98,13 @@ struct RecordExcitation {
         return abs(acceleration) * T(S(motion.record->peak()) + S(motion.record->upwards_peak()));
     }
 
+    /// See fourth_derivative_of_force(); the slope is that of each piece.
+    std::array<T, 5> ground_bounds() const
+    {
+        const T size = 1 + largest_acceleration();
+        return {size, T(0), T(0), T(0), T(0)};
+    }
+
     /// An upper bound of the gravity over g [1].
     T strongest_gravity() const
     {

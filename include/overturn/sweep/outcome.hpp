@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <limits>
 
 namespace overturn {
@@ -69,12 +68,23 @@ struct Outcome {
     }
 };
 
+/// The phases of the first uplifts of points, which few fields need [rad or samples].
+struct FirstUplifts {
+    virtual double first_uplift(int point) const = 0;
+
+protected:
+    ~FirstUplifts() = default;
+};
+
 /// The end of the ground motion at a point.
 struct EndOfPoint {
     const Scene& scene;
     const Point& point;
     const Outcome& outcome;
-    std::function<double()> first_uplift; ///< its phase [rad or samples]
+    const FirstUplifts& uplifts;
+    int number; ///< of the point
+
+    double first_uplift() const { return uplifts.first_uplift(number); }
 
     /// The block as seen from the side on which it ended.
     Block<double> block() const { return seen_from(outcome.side, point.block); }
