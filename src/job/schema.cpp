@@ -1,5 +1,6 @@
 #include "overturn/job/schema.hpp"
 
+#include "overturn/problem/product.hpp"
 #include "overturn/record/read_record.hpp"
 #include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
@@ -90,9 +91,9 @@ std::vector<Key> keys_with_one_value()
                      largest_rk45_tolerance_with_error)},
         {"numerics", "resolve", always, "boolean", fmt::to_string(numerics.resolve),
          "settle verdicts in doubt with more digits"},
-        {"numerics", "fill", always, "boolean", fmt::to_string(numerics.fill),
+        {"numerics", "fill", always, "boolean", "false",
          "integrate only the points near the boundaries of regions"},
-        {"numerics", "audit", always, "number", number_text(numerics.audit) + "; requires fill",
+        {"numerics", "audit", always, "number", number_text(FilledSpectrum().audit) + "; requires fill",
          "share of the filled points that are integrated as well"},
         {"output", "fields", always, "list",
          fmt::format("[{}]", words(mapped(default_fields, &Field::name))),

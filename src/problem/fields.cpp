@@ -47,7 +47,7 @@ double peak(const EndOfPoint& end)
     if (!is_safe(outcome.region)) {
         return is_unsafe(outcome.region) ? infinity : unknown;
     }
-    return with_theory(end.scene.theory, [&]<Theory theory>() {
+    return with_theory(end.scene().theory, [&]<Theory theory>() {
         return std::max(outcome.peak / end.point.block.slenderness,
                         largest_free_tilt<theory>(outcome.end(), end.block()));
     });
@@ -60,7 +60,7 @@ double fall_time(const EndOfPoint& end)
     if (!is_unsafe(outcome.region)) {
         return is_safe(outcome.region) ? infinity : unknown;
     }
-    return with_theory(end.scene.theory, [&]<Theory theory>() {
+    return with_theory(end.scene().theory, [&]<Theory theory>() {
         const double forced = (outcome.phase - end.first_uplift()) / end.point.frequency;
         const double time =
             outcome.has(outcome_flag::fell)
@@ -84,13 +84,25 @@ double angle(const EndOfPoint& end)
 
 double impacts(const EndOfPoint& end)
 {
-    return end.outcome.stored_impacts(end.scene.is_recorded());
+    return end.outcome.stored_impacts(end.scene().is_recorded());
 }
 
 double status_bits(const EndOfPoint& end)
 {
     return end.outcome.flags & outcome_flag::of_status;
 }
+
+/// As a function for all points.
+template <double (*value)(const EndOfPoint& end)>
+constexpr FieldFunction each{value, [](const EndsOfPoints& ends, FieldValues& all) {
+                                 std::visit(
+                                     [&]<class Value>(std::vector<Value>& values) {
+                                         for (int i = 0; i < ends.size(); ++i) {
+                                             values[std::size_t(i)] = Value(value(ends[i]));
+                                         }
+                                     },
+                                     all);
+                             }};
 
 using enum FieldType;
 
@@ -101,35 +113,35 @@ const FieldTraits fields[] = {
      "S: safe within the separatrix; S+, S-: safe due to the loss at the next impact; U0: "
      "overturns without another impact; U1, U2: overturns after one or two more impacts; F: falls "
      "during the ground motion",
-     {&Outputs::region}, value_of<&Outcome::region>, region_flags, FieldOf::filled_point},
-    {"angle", float64, "angle at the end of the ground motion", "rad", "theta", {}, angle},
+     {&Outputs::region}, each<value_of<&Outcome::region>>, region_flags, FieldOf::filled_point},
+    {"angle", float64, "angle at the end of the ground motion", "rad", "theta", {}, each<angle>},
     {"velocity", float64, "velocity at the end of the ground motion", "rad", "d theta / d(p t)",
-     {}, velocity},
+     {}, each<velocity>},
     {"margin", float64, "margin, positive where safe", "1", "distance from the other verdict",
-     {&Outputs::margin}, value_of<&Outcome::margin>},
+     {&Outputs::margin}, each<value_of<&Outcome::margin>>},
     {"error", float64, "bound on the error of the margin", "1",
      "to first order; infinite where it is unknown: an impact or a fall may or may not have "
      "happened, or was only just avoided; a verdict is certain where |margin| is larger",
-     {&Outputs::error}, value_of<&Outcome::error>},
+     {&Outputs::error}, each<value_of<&Outcome::error>>},
     {"peak", float64, "largest |theta| / alpha", "1",
      "during the ground motion and after it; infinite where the block overturns",
-     {&Outputs::region, &Outputs::peak}, peak},
+     {&Outputs::region, &Outputs::peak}, each<peak>},
     {"fall_time", float64, "time p t from uplift to |theta| = pi/2", "1",
-     "infinite where the block does not overturn", {&Outputs::region, &Outputs::phase}, fall_time},
+     "infinite where the block does not overturn", {&Outputs::region, &Outputs::phase}, each<fall_time>},
     {"friction", float64, "friction coefficient needed", "1",
      "the largest |along| / normal force of the base on the block, during the ground motion and "
      "after it, impacts excepted; of a block that overturns, until it last passes alpha; infinite "
      "where the block would leave the base",
-     {&Outputs::contact}, value_of<&Outcome::friction>},
+     {&Outputs::contact}, each<value_of<&Outcome::friction>>},
     {"normal", float64, "smallest normal force over that at rest", "1",
-     "over the same times as the friction", {&Outputs::contact}, value_of<&Outcome::normal>},
-    {"impacts", uint16, "impacts during the ground motion", "1", "", {&Outputs::impacts}, impacts,
+     "over the same times as the friction", {&Outputs::contact}, each<value_of<&Outcome::normal>>},
+    {"impacts", uint16, "impacts during the ground motion", "1", "", {&Outputs::impacts}, each<impacts>,
      {{impact_count::largest, "this_many_or_more"}, {impact_count::not_computed, "not_computed"},
       {impact_count::bounce_series, "bounce_series"}}, FieldOf::filled_point},
     {"steps", uint32, "integration steps tried", "1", "", {&Outputs::steps},
-     value_of<&Outcome::steps>, {{step_count::not_computed, "not_computed"}}},
+     each<value_of<&Outcome::steps>>, {{step_count::not_computed, "not_computed"}}},
     {"status", uint8, "flags set during the integration", "",
-     "0: no flag is set; 255: not computed yet", {}, status_bits,
+     "0: no flag is set; 255: not computed yet", {}, each<status_bits>,
      {{status::came_to_rest, "came_to_rest"}, {status::cap_was_hit, "cap_was_hit"},
       {status::not_finite, "not_finite"}, {status::unresolved, "unresolved"},
       {status::free_fall, "free_fall"}, {status::lifts_off, "lifts_off"}}, FieldOf::point, true},
@@ -142,27 +154,27 @@ const FieldTraits fields[] = {
      "`finest_step` of the amplitude; strips that are narrower, or that the neighbouring "
      "amplitudes do not indicate, may be missed. Under a record, the steps were divided evenly "
      "until each was at most `finest_step` of the amplitude; narrower strips exist and are missed",
-     {}, nullptr, {}, FieldOf::flip},
+     {}, {}, {}, FieldOf::flip},
     {"region_below", uint8, "region just below the flip", "",
      "if there is no flip, the first entry along `crossing` has the region at the first amplitude "
      "of the scan. A first flip above a safe region is the minimum overturning amplitude. If the "
      "first entry has an unsafe region below, the block overturns at the first amplitude of the "
-     "job", {}, nullptr, region_or_no_flip, FieldOf::flip},
+     "job", {}, {}, region_or_no_flip, FieldOf::flip},
     {"region_above", uint8, "region just above the flip", "",
      "undecided: verdicts could not be settled up to the next flip, or this is the last stored "
-     "flip and there are more", {}, nullptr, region_or_no_flip, FieldOf::flip},
-    {"flip_pga", float64, "PGA at which the verdict flips, over g", "1", "", {}, nullptr, {},
+     "flip and there are more", {}, {}, region_or_no_flip, FieldOf::flip},
+    {"flip_pga", float64, "PGA at which the verdict flips, over g", "1", "", {}, {}, {},
      FieldOf::flip},
     {"unsafe_share", float64, "share of amplitudes that overturn", "1",
      "share of the scanned interval. Under a record, smaller steps find more flips; this share "
      "hardly depends on the step. Flips beyond the last stored flip are included",
-     {}, nullptr, {}, FieldOf::line},
+     {}, {}, {}, FieldOf::line},
     {"undecided_share", float64, "share of amplitudes without verdict", "1",
      "share of the scanned interval in which the verdict could not be settled",
-     {}, nullptr, {}, FieldOf::line},
+     {}, {}, {}, FieldOf::line},
     {"evaluated", uint8, "whether the point was integrated", "",
      "filled: all nodes of a cell around the point have its region, and none of the functions "
-     "that change it is near zero; by numerical evidence, not by proof", {}, nullptr,
+     "that change it is near zero; by numerical evidence, not by proof", {}, {},
      {{point_origin::filled, "filled"}, {point_origin::integrated, "integrated"},
       {point_origin::not_computed, "not_computed"}}, FieldOf::filling}};
 // clang-format on
@@ -191,7 +203,7 @@ std::vector<Field> spectrum_fields()
 {
     std::vector<Field> of_points;
     for (const FieldTraits& traits : fields) {
-        if (traits.value != nullptr) {
+        if (traits.value.at != nullptr) {
             of_points.push_back({traits.name});
         }
     }

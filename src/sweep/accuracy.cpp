@@ -204,9 +204,11 @@ void AccuracyStudy::measure_errors(const Outcomes& outcomes, AccuracyRow& row) c
         // If only one of the two blocks fell, their ends cannot be compared.
         const bool differ = is_forced_fall(found.region) != exact.has(outcome_flag::fell);
         const auto error = [&](Field field) {
-            const auto& value_of = traits_of(field).value;
-            const double apart = std::abs(value_of(run_->end_of(point, found)) -
-                                          value_of(run_->end_of(point, exact)));
+            const auto value_of = [&](const Outcomes& of) {
+                const EndsOfPoints ends{*run_, of.of_points.get()};
+                return traits_of(field).value.at(ends[point]);
+            };
+            const double apart = std::abs(value_of(outcomes) - value_of(*in_50_digits_));
             return differ || !std::isfinite(apart) ? std::numeric_limits<double>::infinity()
                                                    : apart;
         };

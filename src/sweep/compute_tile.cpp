@@ -23,15 +23,7 @@ namespace {
 FieldValues values_of(Field field, const PointRun& points, const Outcomes& outcomes)
 {
     FieldValues computed = not_computed(field, points.size());
-    const auto& value_of = traits_of(field).value;
-    std::visit(
-        [&]<class Value>(std::vector<Value>& values) {
-            for (int i = 0; i < points.size(); ++i) {
-                values[std::size_t(i)] =
-                    Value(value_of(points.end_of(i, outcomes[std::size_t(i)])));
-            }
-        },
-        computed);
+    traits_of(field).value.everywhere({points, outcomes.of_points.get()}, computed);
     return computed;
 }
 

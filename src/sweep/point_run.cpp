@@ -98,8 +98,9 @@ ScaledPulses::ScaledPulses(const PulseMotion<double>& motion, Theory theory,
 
 PointRun::PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
                    DropRequested drop_requested, bool are_symmetric)
-    : scene_(scene), pulse_(pulse_motion<double>(scene.pulse, scene.shape)), kernel_(kernel),
-      drop_requested_(std::move(drop_requested)), points_(std::move(points)),
+    : PointsOfScene(scene, std::move(points)),
+      pulse_(pulse_motion<double>(scene.pulse, scene.shape)), kernel_(kernel),
+      drop_requested_(std::move(drop_requested)),
       pulses_(scene.is_recorded() ? ScaledPulses() : ScaledPulses(pulse_, scene.theory, points_)),
       are_symmetric_(are_symmetric)
 {

@@ -47,15 +47,11 @@ struct ScaledPulses {
 };
 
 /// Points of one scene, prepared for integration. Long computations throw TileDropped on request.
-class PointRun : public FirstUplifts {
+class PointRun : public PointsOfScene {
 public:
     /// are_symmetric: whether all blocks are known to be; then a kernel reads less of each.
     PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
              DropRequested drop_requested = nullptr, bool are_symmetric = false);
-
-    const Scene& scene() const { return scene_; }
-    int size() const { return int(points_.size()); }
-    const Point& point(int i) const { return points_[std::size_t(i)]; }
 
     /// The indices of all points.
     std::vector<int> all() const;
@@ -96,11 +92,6 @@ public:
     /// the bound is the error of its margin. If the point is capped, its end is set to rest.
     bool settle_low_bounces(int point, Outcome& outcome) const;
 
-    /// From which the fields of a point follow; the outcome must have the outputs that they need.
-    EndOfPoint end_of(int point, const Outcome& outcome) const
-    {
-        return {scene_, this->point(point), outcome, *this, point};
-    }
     double first_uplift(int point) const override;
 
     /// Sets what the contact must bear during the ground motion and after it, by a run of its own;
@@ -121,11 +112,9 @@ private:
     template <class T, Theory theory, class Visitor>
     auto with_excitation(int point, const Visitor& visit) const;
 
-    Scene scene_;
     PulseMotion<double> pulse_; // not used under records
     Kernel kernel_;
     DropRequested drop_requested_;
-    std::vector<Point> points_;
     ScaledPulses pulses_;                                      // only under a pulse
     std::vector<std::shared_ptr<const Accelerogram>> records_; // of the points; empty under a pulse
     bool are_symmetric_;

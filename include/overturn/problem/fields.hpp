@@ -15,6 +15,7 @@
 namespace overturn {
 
 struct EndOfPoint;
+struct EndsOfPoints;
 
 /// The name of a field.
 struct Field {
@@ -74,6 +75,12 @@ struct FieldFlag {
     std::string_view meaning;
 };
 
+/// The value of a field at the end of a point, and the same for all of them in one loop.
+struct FieldFunction {
+    double (*at)(const EndOfPoint& end) = nullptr;
+    void (*everywhere)(const EndsOfPoints& ends, FieldValues& values) = nullptr;
+};
+
 /// All that is known of a field.
 struct FieldTraits {
     std::string_view name; ///< in job files and result files
@@ -81,8 +88,8 @@ struct FieldTraits {
     std::string_view long_name;
     std::string_view units; ///< empty: codes
     std::string_view comment;
-    std::vector<bool Outputs::*> needs{};             ///< of the integration
-    double (*value)(const EndOfPoint& end) = nullptr; ///< of a point that is not filled
+    std::vector<bool Outputs::*> needs{}; ///< of the integration
+    FieldFunction value{};                ///< of points that are not filled
     std::vector<FieldFlag> flags{};
     FieldOf of = FieldOf::point;
     bool has_bits = false; ///< the flags are bits that may be combined

@@ -68,26 +68,48 @@ struct Outcome {
     }
 };
 
-/// The phases of the first uplifts of points, which few fields need [rad or samples].
-struct FirstUplifts {
+/// Points of a scene, of which few fields need the first uplift.
+class PointsOfScene {
+public:
+    PointsOfScene(const Scene& scene, std::vector<Point> points)
+        : scene_(scene), points_(std::move(points))
+    {}
+
+    const Scene& scene() const { return scene_; }
+    int size() const { return int(points_.size()); }
+    const Point& point(int i) const { return points_[std::size_t(i)]; }
+
+    /// The phase of the first uplift of a point [rad or samples].
     virtual double first_uplift(int point) const = 0;
 
 protected:
-    ~FirstUplifts() = default;
+    ~PointsOfScene() = default;
+
+    Scene scene_;
+    std::vector<Point> points_;
 };
 
 /// The end of the ground motion at a point.
 struct EndOfPoint {
-    const Scene& scene;
+    const PointsOfScene& points;
+    int number;
     const Point& point;
     const Outcome& outcome;
-    const FirstUplifts& uplifts;
-    int number; ///< of the point
 
-    double first_uplift() const { return uplifts.first_uplift(number); }
+    const Scene& scene() const { return points.scene(); }
+    double first_uplift() const { return points.first_uplift(number); }
 
     /// The block as seen from the side on which it ended.
     Block<double> block() const { return seen_from(outcome.side, point.block); }
+};
+
+/// The ends of all points.
+struct EndsOfPoints {
+    const PointsOfScene& points;
+    const Outcome* outcomes;
+
+    int size() const { return points.size(); }
+    EndOfPoint operator[](int i) const { return {points, i, points.point(i), outcomes[i]}; }
 };
 
 } // namespace overturn
