@@ -81,11 +81,13 @@ void add_outcome(hid_t file, const Job& job, const History& history)
     const auto add = [&](std::string_view name) {
         write_attribute(file, std::string(name).c_str(), coordinates.of(name).first());
     };
-    for (const Quantity& quantity : all_quantities()) {
-        if (grid.find(quantity.name) != nullptr
-                ? quantity.role != Role::motion
-                : quantity.scope.is_stored && coordinates.has(quantity.name)) {
-            add(quantity.name);
+    for (const bool is_given : {true, false}) {
+        for (const Quantity& quantity : all_quantities()) {
+            if ((grid.find(quantity.name) != nullptr) == is_given &&
+                quantity.role != Role::motion &&
+                (is_given || (quantity.scope.is_stored && coordinates.has(quantity.name)))) {
+                add(quantity.name);
+            }
         }
     }
     write_attribute(file, "region", std::int64_t(history.region));
