@@ -250,7 +250,7 @@ Job boundary_of(Job job)
                     "last. Give two or more values.",
                     strength.quantity->name, strength.values.first());
     }
-    problem.product = BoundaryLines();
+    problem.product = Boundaries();
     problem.fields = boundary_fields(problem.scene, problem.grid);
     job.resolved = resolved_text(job);
     // With fewer strengths than flips, the boundary is larger than the spectrum.

@@ -100,7 +100,7 @@ Shape FilledSpectrum::tile(const Problem& problem) const
     return filled_tile_of(problem.grid);
 }
 
-std::vector<StoredDimension> BoundaryLines::dimensions(const Problem& problem) const
+std::vector<StoredDimension> Boundaries::dimensions(const Problem& problem) const
 {
     std::vector<StoredDimension> dimensions = Spectrum().dimensions(problem);
     dimensions[*problem.grid.dimension_of(Role::strength)] = {std::string(flip_dimension),
@@ -110,14 +110,14 @@ std::vector<StoredDimension> BoundaryLines::dimensions(const Problem& problem) c
 
 // One line, which takes longer than a tile of a spectrum: about 10 ms, and much more for slow
 // pulses, under which blocks bounce very often.
-Shape BoundaryLines::tile(const Problem& problem) const
+Shape Boundaries::tile(const Problem& problem) const
 {
     return mapped(dimensions(problem), [](const StoredDimension& dimension) {
         return dimension.name == flip_dimension ? dimension.size : 1;
     });
 }
 
-Items BoundaryLines::items(const Problem& problem) const
+Items Boundaries::items(const Problem& problem) const
 {
     return {count_points(stored_shape(problem)) / most_flips(problem.scene), "lines"};
 }

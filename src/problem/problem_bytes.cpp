@@ -70,8 +70,8 @@ struct Archive {
         double audit = product.audit().value_or(0);
         transfer_all(kind, audit);
         if (is_input) {
-            product = std::array<Product, 3>{Spectrum(), FilledSpectrum{{}, audit},
-                                             BoundaryLines()}[kind];
+            product =
+                std::array<Product, 3>{Spectrum(), FilledSpectrum{{}, audit}, Boundaries()}[kind];
         }
     }
 

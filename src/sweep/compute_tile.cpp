@@ -66,7 +66,7 @@ TileFields fields_of(const Spectrum&, const Problem& problem, const Tile& tile, 
     return {.values = mapped(fields, computed)};
 }
 
-TileFields fields_of(const BoundaryLines&, const Problem& problem, const Tile& tile, Kernel kernel,
+TileFields fields_of(const Boundaries&, const Problem& problem, const Tile& tile, Kernel kernel,
                      const DropRequested& drop_requested)
 {
     const auto& [scene, grid, numerics, product, fields] = problem;

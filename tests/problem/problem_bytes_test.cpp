@@ -37,7 +37,7 @@ std::vector<Problem> every_problem()
          .fields = {Field::region, Field::evaluated}},
         {.scene = {},
          .grid = grid_of({}, pulse),
-         .product = BoundaryLines(),
+         .product = Boundaries(),
          .fields = boundary_fields({}, grid_of({}, pulse))},
         {.scene = {},
          .grid = grid_of({}, {number("slenderness", 0.2), number("restitution", 0.9),

@@ -121,7 +121,7 @@ TEST(Boundary, StoresFlipsInPlaceOfTheStrength)
     EXPECT_EQ(stored_shape(problem), (Shape{2, 100, 20}));
     EXPECT_EQ(items_of(problem).count, 4000);
     EXPECT_STREQ(items_of(problem).name, "points");
-    problem.product = BoundaryLines();
+    problem.product = Boundaries();
     EXPECT_EQ(names_of_stored(problem),
               (std::vector<std::string>{"slenderness", "crossing", "frequency"}));
     EXPECT_EQ(stored_shape(problem), (Shape{2, 64, 20}));
@@ -137,7 +137,7 @@ TEST(Boundary, UnderRecordsStoresMoreFlips)
     Problem problem = problem_of_grid(scene_of_three_records(),
                                       {axis("motion", {1, 2, 3}), pga_axis(100), number("size", 2),
                                        number("slenderness", 0.2), number("restitution", 0.9)});
-    problem.product = BoundaryLines();
+    problem.product = Boundaries();
     EXPECT_EQ(stored_shape(problem), (Shape{3, 256}));
     EXPECT_EQ(tiling_of(problem).tile_shape(), (Shape{1, 256}));
     EXPECT_EQ(items_of(problem).count, 3);

@@ -451,7 +451,7 @@ Problem boundary_of_blocks(std::vector<Given> blocks_and_frequencies)
 {
     blocks_and_frequencies.push_back(axis("amplitude", scan_of_tile));
     return {.grid = grid_of({}, std::move(blocks_and_frequencies)),
-            .product = BoundaryLines(),
+            .product = Boundaries(),
             .fields = {Field::flip_amplitude, Field::region_below, Field::region_above}};
 }
 

@@ -280,9 +280,9 @@ private:
             include(demand_of(force), open, beyond);
             FunctionSample<T> there = function_of(force);
             there.place = place;
-            // What is left of the rise of a parabola.
+            // The rest of the rise of a parabola, slope^2 / (2 curvature), is below 1e-11.
             const T curvature = (at_low - at_high) / (time * time);
-            const Mask far = there.slope * there.slope > T(S(1e-13)) * curvature;
+            const Mask far = there.slope * there.slope > T(S(1e-11)) * curvature;
             const Mask rises = there.slope > 0;
             const auto replace = [&](FunctionSample<T>& end, const Mask& by) {
                 end = {select<T>(by, there.place, end.place), select<T>(by, there.value, end.value),

@@ -44,23 +44,23 @@ struct FilledSpectrum : Spectrum {
 };
 
 /// The strengths at which the verdict flips, for all other coordinates.
-struct BoundaryLines {
-    bool operator==(const BoundaryLines&) const = default;
+struct Boundaries {
+    bool operator==(const Boundaries&) const = default;
     std::vector<StoredDimension> dimensions(const Problem& problem) const;
     Shape tile(const Problem& problem) const;
     Items items(const Problem& problem) const;
 };
 
 /// A spectrum by default.
-struct Product : std::variant<Spectrum, FilledSpectrum, BoundaryLines> {
+struct Product : std::variant<Spectrum, FilledSpectrum, Boundaries> {
     using variant::variant;
 
     /// Whether the method, the tolerance and the fields are those of the job: a boundary settles
     /// every verdict, and has fields of its own.
-    bool has_settings() const { return !std::holds_alternative<BoundaryLines>(*this); }
+    bool has_settings() const { return !std::holds_alternative<Boundaries>(*this); }
 
     /// Whether the strengths are replaced by the dimension flip_dimension.
-    bool scans_strengths() const { return std::holds_alternative<BoundaryLines>(*this); }
+    bool scans_strengths() const { return std::holds_alternative<Boundaries>(*this); }
 
     /// The share of the filled points that are integrated as well; none if no point is filled.
     std::optional<double> audit() const

@@ -33,6 +33,8 @@ inline constexpr auto names_of<PulseKind> = [] {
 }();
 template <>
 inline constexpr std::array<std::string_view, 2> names_of<Method>{"rk45", "taylor"};
+template <>
+inline constexpr std::array<std::string_view, 2> names_of<Theory>{"nonlinear", "linear"};
 
 struct Scene {
     PulseKind pulse = PulseKind::one_sine;

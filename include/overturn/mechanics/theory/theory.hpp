@@ -2,14 +2,9 @@
 // its own; theories.hpp lists them.
 #pragma once
 
-#include "overturn/text/names.hpp"
-
 namespace overturn {
 
 enum class Theory { nonlinear, linear };
-
-template <>
-inline constexpr std::array<std::string_view, 2> names_of<Theory>{"nonlinear", "linear"};
 
 /// The equations of a theory: static functions of the side on which the block rocks (BlockSide) and
 /// of the tilt |theta| [rad], which is never negative. With y = alpha - |theta|, the steppers and
