@@ -64,7 +64,8 @@ double distance(const Scene&, const Values& of)
 /// p of a side: R and the radius of gyration k.
 double frequency_parameter_of_side(const Scene& scene, const Values& of)
 {
-    const auto [size, gyration, _, __, ___] = of;
+    const double size = of[0];
+    const double gyration = of[1];
     return std::sqrt(scene.gravity * size / (gyration * gyration + size * size));
 }
 
@@ -104,7 +105,8 @@ constexpr auto period = [](const Scene&, const Values& of) {
 
 // clang-format off
 // Axes have this order, slowest first; under records, the size is the fastest. Filling requires
-// that the strength and the rate are the last two.
+// that the strength and the rate are the last two. Result files store coordinates that follow from
+// others in this order.
 constexpr Quantity quantities[] = {
     {"motion", "1", Role::motion, "number of the ground motion in the job", positive,
      "It is the number of a record.", {.motion = record}},
@@ -170,6 +172,13 @@ constexpr Quantity quantities[] = {
      {{{"size"},
        [](auto& scene, auto& of) { return std::sqrt(3 * scene.gravity / (4 * of[0])); }, equal},
       {{"size_plus", "radius_of_gyration"}, frequency_parameter_of_side, two}}},
+    {"frequency_parameter_minus", "s-1", Role::derived, "frequency parameter of the side minus",
+     positive, "", {.is_stored = true},
+     {{{"size_minus", "radius_of_gyration"}, frequency_parameter_of_side, two}}},
+    {"largest_restitution", "1", Role::derived, "largest energy ratio, r_max", shares, "",
+     {.is_stored = true},
+     {{{"moment_kept", "radius_of_gyration", "size_plus", "size_minus"},
+       largest_restitution_of_sides, two}}},
     {"restitution", "1", Role::loss, "energy ratio at an impact, r", energy_ratios,
      "A block cannot gain energy at an impact, nor lose all of it.", {.is_stored = true},
      {{{"restitution_of_maximum", "slenderness"},
@@ -202,13 +211,6 @@ constexpr Quantity quantities[] = {
     {"pulse_frequency", "s-1", Role::rate, "frequency of the pulse", positive,
      "It is the frequency of the pulse in Hz.",
      {.same_as = "frequency", .motion = pulse, .own_units = "Hz"}},
-    {"frequency_parameter_minus", "s-1", Role::derived, "frequency parameter of the side minus",
-     positive, "", {.is_stored = true},
-     {{{"size_minus", "radius_of_gyration"}, frequency_parameter_of_side, two}}},
-    {"largest_restitution", "1", Role::derived, "largest energy ratio, r_max", shares, "",
-     {.is_stored = true},
-     {{{"moment_kept", "radius_of_gyration", "size_plus", "size_minus"},
-       largest_restitution_of_sides, two}}},
     {"window", "1", Role::setting, "half width of the window", windows,
      "It is the half width in pulse periods."},
     {"cycles", "1", Role::setting, "duration of the pulse", half_periods,
