@@ -6,6 +6,7 @@ namespace overturn::help {
 
 inline constexpr const char* overview = R"(Examples:
   overturn topple --width 0.6 --height 1.8 --period 0.5 --pga 0.4
+  overturn keys numerics
   overturn check jobs/smoke.toml
   overturn run jobs/smoke.toml
   mpirun -n 8 overturn run jobs/smoke.toml -o smoke.h5

@@ -38,7 +38,8 @@ class TheCommandLine(Scratch):
         every = self.overturn("keys")
         self.assert_exit(every, 0, "scene.pulse", "numerics.tolerance", "plane.pga", "output.fields")
         tolerance = self.overturn("keys", "tolerance")
-        self.assert_exit(tolerance, 0, "numerics.tolerance\n", "number: [1e-14, 0.01]; default: 1e-09; 0.0001 with resolve")
+        self.assert_exit(tolerance, 0, "numerics.tolerance ",
+                         "number: [1e-14, 0.01]; default: 1e-09; 0.0001 with resolve")
         self.assertEqual(tolerance.stdout, self.overturn("keys", "numerics.tolerance").stdout)
         self.assertIn(tolerance.stdout, every.stdout)
         self.assertEqual(len(self.overturn("keys", "numerics", "--markdown").stdout.splitlines()), 5)

@@ -42,7 +42,7 @@ def stub():
     return HEAD + "\n".join(lines) + "\n             ) -> Outcome: ...\n"
 
 
-TABLES_HEAD = '''"""The fields of a spectrum and the quantities of its points. Written by tests/python/stub_test.py --write."""
+TABLES_HEAD = '''"""Fields of a spectrum, quantities of its points. Written by tests/python/stub_test.py --write."""
 
 '''
 TABLES_FOOT = '''
@@ -61,8 +61,8 @@ def tables():
             for name, row in core.coordinates.items()]
     fields = ", ".join(f'"{name}"' for name in core.fields)
     return "\n".join([TABLES_HEAD + textwrap.fill(f"FIELDS = ({fields})", 120, subsequent_indent=" " * 10),
-                      "# Units in sentences, role, and the quantity of which this is another spelling.", "QUANTITIES = {",
-                      *rows, "}", TABLES_FOOT])
+                      "# Units in sentences, role, and the quantity of which this is another spelling.",
+                      "QUANTITIES = {", *rows, "}", TABLES_FOOT])
 
 
 class TheStub(unittest.TestCase):

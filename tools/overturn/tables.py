@@ -1,4 +1,4 @@
-"""The fields of a spectrum and the quantities of its points. Written by tests/python/stub_test.py --write."""
+"""Fields of a spectrum, quantities of its points. Written by tests/python/stub_test.py --write."""
 
 FIELDS = ("region", "angle", "velocity", "margin", "error", "peak", "fall_time", "friction", "normal", "impacts",
           "steps", "status")
