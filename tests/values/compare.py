@@ -2,6 +2,7 @@
 """Compares every value that two builds of overturn store for the same jobs.
 
     compare.py OLD NEW [--only NAME] [--figure-points N] [--other-processor]
+               [--nearly NAME...]
 
 OLD and NEW are programs. Both run the jobs of jobs/ and of tests/values/jobs, some of them also as
 boundaries, histories and accuracy studies. Every number and text in a result of OLD must be in that of
@@ -11,7 +12,8 @@ Attributes that differ and new coordinates are reported only.
 
 --only chooses the comparisons whose names contain NAME; --figure-points sets the points of both axes of the figures of
 the paper, by default 400. --other-processor allows differences in the last digits of the values that
-BY_C_LIBRARY lists. A few minutes; MPIEXEC starts the ranks."""
+BY_C_LIBRARY lists. --nearly allows relative differences of 1e-9 in the values of these names. A few minutes;
+MPIEXEC starts the ranks."""
 
 import argparse
 import collections
@@ -122,6 +124,7 @@ class Comparison:
         self.programs = {"old": old, "new": new}
         self.only = options.only
         self.other_processor = options.other_processor
+        self.nearly = options.nearly
         self.figure = [f"plane.{axis}.count={options.figure_points}" for axis in ("frequency", "amplitude")]
         self.kernels = ["double", "avx2", "avx512"]
         self.failures = 0
@@ -162,7 +165,7 @@ class Comparison:
                 return self.fail(name, f"exit code {code} of the {which} program: {said}")
         print(f"{took['old']:6.2f} s {took['new']:6.2f} s  {name}", flush=True)
         self.seconds.update(took)
-        for text in compare(paths["old"], paths["new"], self.notes, self.other_processor):
+        for text in compare(paths["old"], paths["new"], self.notes, self.other_processor, self.nearly):
             self.fail(name, text)
         if self.counts[command] == 0:
             for value in unnoticed_flips(paths["old"]):
@@ -221,6 +224,7 @@ def main():
     parser.add_argument("--only", metavar="NAME", default="")
     parser.add_argument("--figure-points", metavar="N", type=int, default=400)
     parser.add_argument("--other-processor", action="store_true")
+    parser.add_argument("--nearly", metavar="NAME", nargs="+", default=())
     options = parser.parse_args()
     for program in (options.old, options.new):
         if not os.access(program, os.X_OK):
