@@ -270,7 +270,7 @@ long double spectrum_file_bytes(const Job& job)
 void create_spectrum_file(const std::string& path, const Job& job,
                           const BetweenTiles& between_tiles)
 {
-    make_file(path, job, FileKind(job.problem.product), [&](hid_t file, const std::string& part) {
+    make_file(path, job, kind_of(job.problem.product), [&](hid_t file, const std::string& part) {
         expect_space(path, part, job);
         write_skeleton(file, part, job, between_tiles);
     });

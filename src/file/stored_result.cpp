@@ -402,10 +402,10 @@ void expect_result_of(const Job& job, const StoredResult& stored)
     };
     const Problem& problem = job.problem;
     const FileOrigin& origin = stored.origin();
-    if (origin.kind != FileKind(problem.product)) {
+    if (origin.kind != kind_of(problem.product)) {
         refuse(fmt::format("is {} {}, but the job computes an {}. Choose another name with -o.",
                            origin.kind == FileKind::history ? "a" : "an", name_of(origin.kind),
-                           name_of(FileKind(problem.product))));
+                           name_of(kind_of(problem.product))));
     }
     if (origin.resolved_job != job.resolved) {
         refuse("belongs to another job: " + first_difference(origin.resolved_job, job.resolved));

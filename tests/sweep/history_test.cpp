@@ -159,7 +159,7 @@ TEST(History, HasTheFrictionOfTheSpectrum)
         point.gyration = 0.4 + 0.4 * uniform(generator);
         const PointRun run(scene, {point}, widest_kernel());
         const Numerics numerics{Method::taylor, 1e-11};
-        const Outcome outcome = outcomes_of(run, numerics, {.region = true, .contact = true})[0];
+        const Outcome outcome = outcomes_of(run, numerics, {.contact = true, .region = true})[0];
         const double found = outcome.friction;
         const History history = history_of(scene, point, {.samples = 3000});
         // A record has kinks, so that peaks are narrow.

@@ -22,13 +22,17 @@ struct AxisSummary {
     std::string units;
 };
 
-/// The first two correspond to Product.
 enum class FileKind { spectrum, boundary, history, accuracy };
 
 /// Values of the global attribute `kind`.
 template <>
 inline constexpr std::array<std::string_view, 4> names_of<FileKind>{
     "overturning spectrum", "overturning boundary", "rocking history", "accuracy study"};
+
+inline FileKind kind_of(const Product& product)
+{
+    return product.scans_strengths() ? FileKind::boundary : FileKind::spectrum;
+}
 
 /// The metadata that every kind of result file contains.
 struct FileOrigin {
