@@ -72,9 +72,9 @@ double fall_time(const EndOfPoint& end)
 
 /// A number of the outcome as it is.
 template <auto member>
-double value_of(const EndOfPoint& end)
+auto value_of(const EndOfPoint& end)
 {
-    return double(end.outcome.*member);
+    return end.outcome.*member;
 }
 
 double angle(const EndOfPoint& end)
@@ -82,27 +82,31 @@ double angle(const EndOfPoint& end)
     return end.outcome.with_sign(end.outcome.tilt);
 }
 
-double impacts(const EndOfPoint& end)
+std::uint16_t impacts(const EndOfPoint& end)
 {
     return end.outcome.stored_impacts(end.scene().is_recorded());
 }
 
-double status_bits(const EndOfPoint& end)
+std::uint8_t status_bits(const EndOfPoint& end)
 {
     return end.outcome.flags & outcome_flag::of_status;
 }
 
 /// As a function for all points.
-template <double (*value)(const EndOfPoint& end)>
-constexpr FieldFunction each{value, [](const EndsOfPoints& ends, FieldValues& all) {
-                                 std::visit(
-                                     [&]<class Value>(std::vector<Value>& values) {
-                                         for (int i = 0; i < ends.size(); ++i) {
-                                             values[std::size_t(i)] = Value(value(ends[i]));
-                                         }
-                                     },
-                                     all);
-                             }};
+template <auto value>
+constexpr FieldFunction each{
+    [](const EndOfPoint& end) { return double(value(end)); },
+    [](EndsOfPoints ends, FieldValues& all) { // a copy, which stores of bytes cannot change
+        std::visit(
+            [&]<class Value>(std::vector<Value>& values) {
+                Value* const to = values.data();
+                const int size = ends.size();
+                for (int i = 0; i < size; ++i) {
+                    to[i] = Value(value(ends[i]));
+                }
+            },
+            all);
+    }};
 
 using enum FieldType;
 

@@ -78,7 +78,7 @@ struct FieldFlag {
 /// The value of a field at the end of a point, and the same for all of them in one loop.
 struct FieldFunction {
     double (*at)(const EndOfPoint& end) = nullptr;
-    void (*everywhere)(const EndsOfPoints& ends, FieldValues& values) = nullptr;
+    void (*everywhere)(EndsOfPoints ends, FieldValues& values) = nullptr;
 };
 
 /// All that is known of a field.
