@@ -89,7 +89,7 @@ Product read_product(const Entry& job)
     if (const auto audit = find(entry, "audit")) {
         refuse(*audit, " needs fill = true: without filling, every point is integrated.");
     }
-    return {};
+    return Spectrum();
 }
 
 /// Reads [output].

@@ -72,10 +72,10 @@ public:
         is_joined_ = false;
     }
 
-    /// A step of these lanes. parts_of_two: how often a step with a suspect is halved before the
-    /// extreme is searched for.
+    /// A trial of a step in the active lanes, which was taken in `lanes`. halvings: of a step that
+    /// may have an extreme, before that is searched for.
     template <int halvings>
-    void see_step(const StepEnds<T>& ends, const Mask& lanes, const auto& step)
+    void see_step(const StepEnds<T>& ends, const Mask& active, const Mask& lanes, const auto& step)
     {
         const bool is_joined = is_joined_ && step.is_joined;
         const Force first = is_joined ? last_ : force_of(step.begin());
@@ -85,7 +85,7 @@ public:
         const Mask begins_beyond = ends.tilt > slenderness_;
         const Mask ends_beyond = ends.end_tilt > slenderness_;
         if (!is_joined) {
-            include(demand_of(first), lanes, begins_beyond);
+            include(demand_of(first), active, begins_beyond);
         }
         const Mask passes = lanes && begins_beyond != ends_beyond;
         const Part whole{first, last, T(0), T(1), step.duration, margin_of(ends, lanes, step)};
@@ -252,9 +252,25 @@ private:
         find_maximum(part, lifts, beyond, step, relief_of);
     }
 
+    /// Where the cubic through the values and slopes at two places has its maximum.
+    static T maximum_of_cubic(const FunctionSample<T>& low, const FunctionSample<T>& high,
+                              const T& duration)
+    {
+        const T width = high.place - low.place;
+        const T time = width * duration;
+        const T rise = 3 * (high.value - low.value);
+        const T at_low = time * low.slope;
+        const T at_high = time * high.slope;
+        const T bend = rise - (at_low + at_low) - at_high;
+        const T twist = 3 * (at_low + at_high) - (rise + rise);
+        const T square = fma(bend, bend, -(twist * at_low));
+        const T divisor = sqrt(greater<T>(square, 0)) - bend;
+        return fma(width, at_low / select<T>(divisor > 0, divisor, at_low + at_low), low.place);
+    }
+
     /// Includes the demand at the maximum of a function within a part, if the function increases at
-    /// its beginning and decreases at its end: at that of the cubic through its values and slopes
-    /// at both ends, again for the part that still contains the maximum.
+    /// its beginning and decreases at its end: where the cubic through both ends has its maximum,
+    /// once more for the part that still contains it, and then by the secant method.
     void find_maximum(const Part& part, const Mask& lanes, const Mask& beyond, const auto& step,
                       const auto& function_of)
     {
@@ -262,27 +278,33 @@ private:
         FunctionSample<T> high = function_of(part.last);
         low.place = part.from;
         high.place = part.from + part.width;
+        FunctionSample<T> there = low;
+        FunctionSample<T> before = low;
         Mask open = lanes && low.slope > 0 && high.slope < 0;
-        constexpr int most_passes = 6;
+        constexpr int most_passes = 20;
         for (int pass = 0; pass < most_passes && any<T>(open); ++pass) {
-            const T width = high.place - low.place;
-            const T time = width * step.duration;
-            const T rise = 3 * (high.value - low.value);
-            const T at_low = time * low.slope;
-            const T at_high = time * high.slope;
-            const T bend = rise - (at_low + at_low) - at_high;
-            const T twist = 3 * (at_low + at_high) - (rise + rise);
-            const T square = fma(bend, bend, -(twist * at_low));
-            const T divisor = sqrt(greater<T>(square, 0)) - bend;
-            const T share = at_low / select<T>(divisor > 0, divisor, at_low + at_low);
-            const T place = fma(width, lesser<T>(greater<T>(share, 0), 1), low.place);
+            T place;
+            if (pass < 2) {
+                place = maximum_of_cubic(low, high, step.duration);
+            } else {
+                const T change = before.slope - there.slope;
+                const T secant = (there.place - before.place) * there.slope;
+                place = there.place + secant / select<T>(change != 0, change, 1);
+            }
+            const Mask inside = place > low.place && place < high.place;
+            place = select<T>(inside, place, 0.5 * (low.place + high.place));
+            before = there;
             const Force force = force_of(step.at(place));
             include(demand_of(force), open, beyond);
-            FunctionSample<T> there = function_of(force);
+            there = function_of(force);
             there.place = place;
-            // The rest of the rise of a parabola, slope^2 / (2 curvature), is below 1e-11.
-            const T curvature = (at_low - at_high) / (time * time);
-            const Mask far = there.slope * there.slope > T(S(1e-11)) * curvature;
+            // The rest of the rise, that of a parabola, is slope^2 / (2 curvature), with the
+            // smaller of the mean curvatures on both sides.
+            const T square_slope = there.slope * there.slope;
+            const T enough = T(S(1e-10)) / step.duration;
+            const Mask far =
+                square_slope * (place - low.place) > enough * (low.slope - there.slope) ||
+                square_slope * (high.place - place) > enough * (there.slope - high.slope);
             const Mask rises = there.slope > 0;
             const auto replace = [&](FunctionSample<T>& end, const Mask& by) {
                 end = {select<T>(by, there.place, end.place), select<T>(by, there.value, end.value),

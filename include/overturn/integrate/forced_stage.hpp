@@ -118,7 +118,7 @@ public:
             if_watched([&](auto& watch) {
                 watch.template see_step<halvings>({estimate_of(now_.tilt), estimate_of(now_.rate),
                                                    estimate_of(end.tilt), estimate_of(end.rate)},
-                                                  active_ && lanes, step);
+                                                  active_, active_ && lanes, step);
             });
         };
         const auto step =
