@@ -2,6 +2,7 @@
 
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/pulse_motion.hpp"
+#include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
 

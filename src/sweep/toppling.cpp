@@ -1,5 +1,6 @@
 #include "overturn/sweep/toppling.hpp"
 
+#include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/text/mapped.hpp"

@@ -3,7 +3,7 @@
 
 #include "overturn/mechanics/accelerogram.hpp"
 #include "overturn/mechanics/pulse_kind.hpp"
-#include "overturn/mechanics/theory/theories.hpp"
+#include "overturn/mechanics/theory/theory.hpp"
 #include "overturn/text/motion_words.hpp"
 #include "overturn/text/names.hpp"
 

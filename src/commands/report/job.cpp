@@ -5,6 +5,7 @@
 #include "overturn/job/schema.hpp"
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/contact.hpp"
+#include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/problem/given.hpp"
 #include "overturn/problem/plausibility.hpp"
 #include "overturn/text/is_one_of.hpp"
