@@ -35,7 +35,7 @@ double seconds_of(const AccuracyStudy& study, const Numerics& numerics)
 double seconds_in_digits(const Job& job)
 {
     std::int64_t samples = 0;
-    for (const auto& record : job.problem.scene.records) {
+    for (const Record& record : job.problem.scene.records()) {
         samples = std::max(samples, record->samples());
     }
     return 0.02 + 2e-4 * double(samples);

@@ -133,8 +133,8 @@ void expect_finite(const History& history, const Grid& grid)
 History history_of_only_point(const Job& job, HistoryView view)
 {
     const Scene& scene = job.problem.scene;
-    if (scene.is_recorded()) {
-        view.samples = int(std::max<std::int64_t>(view.samples, scene.records.front()->samples()));
+    for (const Record& record : scene.records()) {
+        view.samples = int(std::max<std::int64_t>(view.samples, record->samples()));
     }
     History history = history_of(scene, only_point_of(job.problem), view);
     expect_finite(history, job.problem.grid);

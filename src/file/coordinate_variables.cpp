@@ -175,7 +175,7 @@ private:
     {
         const std::optional<std::size_t> place = grid_.dimension_of("motion");
         const Dimensions along = place ? Dimensions{dimensions_[*place]} : Dimensions();
-        const std::vector<const Motion*> motions =
+        const std::vector<const RecordedMotion*> motions =
             mapped(grid_.find("motion")->values.values(),
                    [&](double number) { return &job_.motions[Scene::record_index(number)]; });
         add_texts("motion_name", along, mapped(motions, [](auto* motion) { return motion->name; }),
@@ -187,7 +187,7 @@ private:
             add_comment_of_measure(measure.comment);
         }
         const bool all_know_the_ground = std::ranges::all_of(
-            motions, [](const Motion* motion) { return motion->ground_pga.has_value(); });
+            motions, [](const RecordedMotion* motion) { return motion->ground_pga.has_value(); });
         if (job_.problem.scene.motion_of == MotionOf::floor && all_know_the_ground &&
             !is_known("ground_pga")) {
             add("ground_pga", along, "", "1", [motions] {

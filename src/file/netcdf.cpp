@@ -47,21 +47,19 @@ void write_origin(hid_t file, const Job& job, FileKind kind)
                     "A. E. Charalampakis, G. C. Tsiatas, P. Tsopelas: Rocking of rigid blocks: "
                     "Analytical solution and exact energy-based overturning criteria");
     const Scene& scene = job.problem.scene;
-    if (scene.is_recorded()) {
+    if (const Pulse* pulse = scene.pulse()) {
+        write_attribute(file, "pulse", name_of(pulse->kind));
+        for (const auto& [name, value] : pulse->numbers()) {
+            write_attribute(file, name.data(), value);
+        }
+    } else {
         const std::size_t count = job.motions.size();
         write_attribute(file, "record",
                         count == 1 ? job.motions.front().file : fmt::format("{} records", count));
-        if (const auto raw = std::ranges::count_if(job.motions, &Motion::is_uncorrected)) {
+        if (const auto raw = std::ranges::count_if(job.motions, &RecordedMotion::is_uncorrected)) {
             write_attribute(file, "record_processing",
                             count == 1 ? "not corrected"
                                        : fmt::format("{} of {} not corrected", raw, count));
-        }
-    } else {
-        write_attribute(file, "pulse", name_of(scene.pulse));
-        for (const auto& [name, number] : shape_numbers) {
-            if (has_number(scene.pulse, number)) {
-                write_attribute(file, name.data(), scene.shape.*number);
-            }
         }
     }
     if (scene.motion_of != Scene().motion_of) {
@@ -81,7 +79,7 @@ void add_job(hid_t file, const Job& job)
              "overrides of the job file, one per line");
     add_text(file, in_run_group(layout::job_resolved), job.resolved, "job with all defaults");
     std::string records;
-    for (const Motion& motion : job.motions) {
+    for (const RecordedMotion& motion : job.motions) {
         records += record_text(motion);
     }
     add_text(file, in_run_group("records"), records,
@@ -181,7 +179,7 @@ void add_group(hid_t file, const char* name)
     Handle(H5Gcreate2(file, name, H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose).close();
 }
 
-std::string record_text(const Motion& motion)
+std::string record_text(const RecordedMotion& motion)
 {
     std::string text = motion.file;
     text += motion.component.empty() ? "" : ", component " + motion.component;

@@ -64,7 +64,7 @@ hdf5::Handle create_dataset(hid_t file, const std::string& name, hid_t type,
                             const Dimensions& dimensions, hid_t creation);
 
 /// The file, components and header lines of a record, as stored.
-std::string record_text(const Motion& motion);
+std::string record_text(const RecordedMotion& motion);
 
 /// Adds the content to a file under construction; part: its temporary path.
 using WriteContent = std::function<void(hid_t file, const std::string& part)>;

@@ -252,7 +252,7 @@ long double spectrum_file_bytes(const Job& job)
         }
         bytes += 600 + 600 * Count(variable.dimensions.size()) + bytes_of_values;
     }
-    for (const Motion& motion : job.motions) {
+    for (const RecordedMotion& motion : job.motions) {
         bytes += Count(record_text(motion).size());
     }
     const auto rank = Count(tiling.shape().size());

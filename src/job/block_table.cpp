@@ -23,13 +23,9 @@ constexpr TextFileKind table_file{"a table", largest_table_file,
                                   "Give the path of a table, relative to the job file.",
                                   "Split the table."};
 
-constexpr std::string_view motion_column = "motion";
-
-/// Names of columns that the result file needs for itself; the second list: under records.
+/// Names of columns that every result file needs for itself.
 constexpr std::array<std::string_view, 7> reserved_names{
     "block", "motion_name", "tile", "checksum", "run_token", "crossing", "run"};
-constexpr std::array<std::string_view, 5> reserved_under_records{
-    "motion_name_length", "record_pga", "pgv", "arias_intensity", "significant_duration"};
 
 // netCDF limits names to 256 bytes, including the suffix of the dimension of a column of texts.
 constexpr std::string_view length_suffix = "_length";
@@ -51,14 +47,14 @@ std::string checksum_of(const Table& table)
 }
 
 /// Refuses a name that the result file has for something else, or that it cannot have.
-void expect_free_name(const BlockTable& blocks, const std::string& name, bool is_recorded)
+void expect_free_name(const BlockTable& blocks, const std::string& name, const MotionTraits& motion)
 {
     const auto refuse_name = [&](const std::string& reason) {
         refuse(blocks, {GivenError::no_row, name, reason});
     };
     const Quantity* const same = find_quantity(name);
     if ((same != nullptr && same->role == Role::derived) || is_one_of(name, reserved_names) ||
-        find_field(name) != nullptr || (is_recorded && is_one_of(name, reserved_under_records))) {
+        find_field(name) != nullptr || is_one_of(name, motion.variables)) {
         refuse_name(" is the name of a variable of the result. Rename the column.");
     }
     for (const TableColumn& other : blocks.table.columns) {
@@ -69,7 +65,7 @@ void expect_free_name(const BlockTable& blocks, const std::string& name, bool is
         }
     }
     const Quantity* const meant = find_quantity(boost::algorithm::to_lower_copy(name));
-    if (meant != nullptr && meant != same && meant->applies_under(is_recorded)) {
+    if (meant != nullptr && meant != same && meant->applies_under(motion)) {
         refuse_name(fmt::format(" is not the quantity {}, whose name is in lower case. Correct the "
                                 "name, or choose another one.",
                                 meant->name));
@@ -110,9 +106,9 @@ void expect_values(const BlockTable& blocks, const TableColumn& column, const Qu
 /// The indices of motions by name.
 using MotionsByName = std::map<std::string, std::vector<std::size_t>, std::less<>>;
 
-/// The names are those in Motion::name, or with the file without its folder or also without its
-/// ending, or that of the file alone; Motion::name comes first.
-MotionsByName by_name(const std::vector<Motion>& motions)
+/// The names are those in RecordedMotion::name, or with the file without its folder or also without
+/// its ending, or that of the file alone; RecordedMotion::name comes first.
+MotionsByName by_name(const std::vector<RecordedMotion>& motions)
 {
     MotionsByName all;
     for (std::size_t i = 0; i < motions.size(); ++i) {
@@ -134,7 +130,8 @@ MotionsByName by_name(const std::vector<Motion>& motions)
 
 /// The numbers of the motions that a column names, from 1.
 std::vector<double> motion_numbers(const BlockTable& blocks, const TableColumn& column,
-                                   const std::vector<Motion>& motions, const MotionsByName& known)
+                                   const std::vector<RecordedMotion>& motions,
+                                   const MotionsByName& known)
 {
     std::vector<double> numbers;
     for (const std::string& name : column.texts) {
@@ -171,29 +168,26 @@ void expect_no_records(const BlockTable& blocks, const TableColumn& column,
                 fmt::format(" names records of the job, but each block is computed under all of "
                             "them. Rename the column to {} to assign the records to the blocks, or "
                             "remove it.",
-                            motion_column)});
+                            Suite::traits.choice)});
     }
 }
 
 } // namespace
 
 BlockTable read_block_table(const std::string& file, const std::string& folder,
-                            const std::vector<Motion>& motions)
+                            const MotionTraits& motion, const std::vector<RecordedMotion>& motions)
 {
     const std::string path = (std::filesystem::path(folder) / file).string();
-    const bool is_recorded = !motions.empty();
-    BlockTable blocks{
-        file, read_table(text_of_file(path, table_file), file, is_recorded ? motion_column : ""),
-        ""};
+    BlockTable blocks{file, read_table(text_of_file(path, table_file), file, motion.choice), ""};
     const MotionsByName known = by_name(motions);
     for (TableColumn& column : blocks.table.columns) {
         const Quantity* const quantity = find_quantity(column.name);
         // Under a pulse, the motion is a column like any other.
-        if (is_recorded && column.name == motion_column) {
+        if (column.name == motion.choice) {
             column = {column.name, motion_numbers(blocks, column, motions, known), {}};
         } else if (quantity == nullptr || !quantity->is_coordinate() ||
                    quantity->role == Role::motion) {
-            expect_free_name(blocks, column.name, is_recorded);
+            expect_free_name(blocks, column.name, motion);
             if (motions.size() > 1) {
                 expect_no_records(blocks, column, known);
             }
@@ -205,12 +199,12 @@ BlockTable read_block_table(const std::string& file, const std::string& folder,
     return blocks;
 }
 
-std::vector<Given> columns_of(const BlockTable& blocks, bool is_recorded)
+std::vector<Given> columns_of(const BlockTable& blocks, const MotionTraits& motion)
 {
     std::vector<Given> columns;
     for (const TableColumn& column : blocks.table.columns) {
         const Quantity* const quantity = find_quantity(column.name);
-        if (quantity != nullptr && quantity->applies_under(is_recorded)) {
+        if (quantity != nullptr && quantity->applies_under(motion)) {
             columns.push_back({quantity, column.name, Axis(column.numbers), GivenAs::column});
         }
     }

@@ -41,8 +41,8 @@ Scene read_scene(const Entry& job)
     scene.theory = choice_of(entry, "theory", scene.theory);
     scene.gravity = quantity_of(entry, "gravity", scene.gravity);
     const bool is_recorded = find(entry, "record").has_value();
-    for (const std::string_view key :
-         keys_of("scene", is_recorded ? Under::pulse : Under::record)) {
+    const MotionTraits& motion = is_recorded ? Suite::traits : Pulse::traits;
+    for (const std::string_view key : keys_of("scene", motion.under_others)) {
         if (const auto other = find(entry, key)) {
             refuse(*other, "{} Remove {}.",
                    is_recorded ? " cannot be combined with scene.record."
@@ -50,24 +50,26 @@ Scene read_scene(const Entry& job)
                    is_recorded ? "one of them" : "it");
         }
     }
-    if (!is_recorded) {
+    if (is_recorded) {
+        scene.motion = Suite();
+    } else {
         const Entry pulse =
             require(entry, "pulse",
                     fmt::format("Give one of {}; or record, the path of a recorded ground motion.",
                                 fmt::join(names_of<PulseKind>, ", ")));
-        scene.pulse = choice_of<PulseKind>(pulse);
-        scene.shape = read_shape(entry, scene.pulse);
+        const auto kind = choice_of<PulseKind>(pulse);
+        scene.motion = Pulse{kind, read_shape(entry, kind)};
     }
     return scene;
 }
 
 /// Reads [numerics].
-Numerics read_numerics(const Entry& job, bool is_recorded)
+Numerics read_numerics(const Entry& job, const MotionTraits& motion)
 {
     const Entry entry = table_of(job, "numerics");
     Numerics numerics;
-    numerics.method = choice_of(entry, "method", is_recorded ? Method::taylor : numerics.method);
-    if (is_recorded && numerics.method != Method::taylor) {
+    numerics.method = choice_of(entry, "method", motion.method);
+    if (numerics.method != motion.method && !motion.has_other_methods) {
         refuse(*find(entry, "method"),
                " = \"{}\" is for pulses only. Under a record, use \"taylor\", the default.",
                name_of(numerics.method));
@@ -168,7 +170,7 @@ std::string excess_of(const Problem& problem)
                : fmt::format(" has {:.4g} {} and would take {:.4g} bytes, but at most {:.4g} are "
                              "allowed. Lower the counts.",
                              problem.product.scans_strengths()
-                                 ? values / double(most_flips(problem.scene))
+                                 ? values / double(problem.scene.motion_traits().most_flips)
                                  : values,
                              items_of(problem).name, bytes, most_bytes);
 }
@@ -210,12 +212,12 @@ Job read_job_text(std::string text, const std::string& name,
     Problem& problem = job.problem;
     problem.scene = read_scene(entry);
     const Entry scene = *find(entry, "scene");
-    if (find(scene, "record")) {
+    if (auto* suite = std::get_if<Suite>(&problem.scene.motion)) {
         job.motions = read_motions(scene, folder, problem.scene.gravity);
-        problem.scene.records = mapped(job.motions, &Motion::record);
+        suite->records = mapped(job.motions, &RecordedMotion::record);
     }
     problem.scene.motion_of = read_motion_of(scene, job.motions);
-    problem.numerics = read_numerics(entry, problem.scene.is_recorded());
+    problem.numerics = read_numerics(entry, problem.scene.motion_traits());
     problem.product = read_product(entry);
     problem.fields = read_fields(entry);
     read_points(entry, folder, job);

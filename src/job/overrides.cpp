@@ -119,12 +119,12 @@ void drop_keys(toml::table& job, const Path& path, const toml::table& given)
     const bool is_record = path == Path{"scene", "record"};
     const bool is_pulse = path == Path{"scene", "pulse"};
     if (is_record || (is_pulse && job["scene"]["record"])) {
-        for (const std::string_view key :
-             keys_of("scene", is_record ? Under::pulse : Under::record)) {
+        const MotionTraits& motion = is_record ? Suite::traits : Pulse::traits;
+        for (const std::string_view key : keys_of("scene", motion.under_others)) {
             erase(job, "scene", key);
         }
         drop_coordinates(job, path,
-                         [&](const Quantity& other) { return !other.applies_under(is_record); });
+                         [&](const Quantity& other) { return !other.applies_under(motion); });
     }
     const auto pulse =
         enumerator_named<PulseKind>(given["scene"]["pulse"].value_or<std::string_view>(""));

@@ -85,7 +85,7 @@ Axis read_axis(const Entry& entry, const Quantity& rule, Names keys)
 }
 
 /// The coordinates of points in the tables of a job.
-std::vector<Given> given_coordinates(const Entry& job, bool is_recorded)
+std::vector<Given> given_coordinates(const Entry& job, const MotionTraits& motion)
 {
     std::vector<Given> given;
     for (const std::string_view table : coordinate_tables) {
@@ -95,9 +95,8 @@ std::vector<Given> given_coordinates(const Entry& job, bool is_recorded)
             if (!entry) {
                 continue;
             }
-            if (!quantity(name).applies_under(is_recorded)) {
-                refuse(*entry, " has no meaning under a {}. Remove it.",
-                       is_recorded ? "record" : "pulse");
+            if (!quantity(name).applies_under(motion)) {
+                refuse(*entry, " has no meaning under a {}. Remove it.", motion.name);
             }
             std::vector<std::string_view> keys(axis_keys.begin(), axis_keys.end());
             if (name == "restitution") {
@@ -115,7 +114,7 @@ std::vector<Given> given_coordinates(const Entry& job, bool is_recorded)
 }
 
 /// The records as a coordinate: a dimension if they are a list or a pattern.
-Given given_motions(const Entry& record, const std::vector<Motion>& motions)
+Given given_motions(const Entry& record, const std::vector<RecordedMotion>& motions)
 {
     const bool is_suite = record.node->is_array() || motions.front().file != string_of(record);
     const auto last = std::int64_t(motions.size());
@@ -152,23 +151,22 @@ std::string columns_text(const BlockTable& blocks)
 
 void read_points(const Entry& entry, const std::string& folder, Job& job)
 {
-    const bool is_recorded = job.problem.scene.is_recorded();
+    const MotionTraits& motion = job.problem.scene.motion_traits();
     if (!find(entry, "block") && !find(entry, "blocks")) {
         require(entry, "plane",
-                fmt::format("Add [plane] with {}, restitution and slenderness.",
-                            is_recorded ? "scale, size" : "frequency, amplitude"));
+                fmt::format("Add [plane] with {}, restitution and slenderness.", motion.examples));
     }
-    std::vector<Given> given = given_coordinates(entry, is_recorded);
+    std::vector<Given> given = given_coordinates(entry, motion);
     if (find(entry, "blocks")) {
         const Entry path =
             require(table_of(entry, "blocks"), "table", "Give the path of a table of blocks.");
-        job.blocks = read_block_table(string_of(path), folder, job.motions);
-        std::ranges::move(columns_of(*job.blocks, is_recorded), std::back_inserter(given));
+        job.blocks = read_block_table(string_of(path), folder, motion, job.motions);
+        std::ranges::move(columns_of(*job.blocks, motion), std::back_inserter(given));
     }
     const auto csv_has = [&](std::string_view name) {
         return job.blocks && job.blocks->table.find(name) != nullptr;
     };
-    if (is_recorded && !csv_has("motion")) {
+    if (!motion.choice.empty() && !csv_has(motion.choice)) {
         given.push_back(given_motions(*find(*find(entry, "scene"), "record"), job.motions));
     }
     try {

@@ -239,7 +239,7 @@ stated_motion_of(std::initializer_list<std::reference_wrapper<const RecordCompon
 }
 
 /// The motion, whose name is that of the file and the component.
-Motion read_motion(std::size_t number, const GivenRecord& given, const Reading& reading)
+RecordedMotion read_motion(std::size_t number, const GivenRecord& given, const Reading& reading)
 {
     const RecordFile content = content_of(given.entry, given.file, reading);
     const auto choice = choice_of_record(number, "component", reading);
@@ -272,7 +272,7 @@ Motion read_motion(std::size_t number, const GivenRecord& given, const Reading& 
         refuse(*choice_of_second, " = {} is also the vertical component. Correct one of them.",
                component_text(*choice_of_second));
     }
-    const Motion motion{
+    const RecordedMotion motion{
         .file = given.file,
         .name = fmt::format("{}:{}", given.file, label_of(content, horizontal)),
         .component = horizontal.name,
@@ -328,14 +328,14 @@ std::vector<GivenRecord> given_records(const Entry& scene, const fs::path& folde
 
 /// Shortens the names, in which files are followed by components, as in "WTMC.V2A:N28W": to the
 /// file if it has one motion only. Those that are equal are followed by the other components.
-void shorten_names(std::vector<Motion>& motions)
+void shorten_names(std::vector<RecordedMotion>& motions)
 {
     std::map<std::string, int> of_file, of_component;
-    for (const Motion& motion : motions) {
+    for (const RecordedMotion& motion : motions) {
         ++of_file[motion.file];
         ++of_component[motion.name];
     }
-    for (Motion& motion : motions) {
+    for (RecordedMotion& motion : motions) {
         if (of_file[motion.file] == 1) {
             motion.name = motion.file;
         } else if (of_component[motion.name] > 1) {
@@ -348,14 +348,16 @@ void shorten_names(std::vector<Motion>& motions)
 
 } // namespace
 
-std::vector<Motion> read_motions(const Entry& scene, const std::string& folder, double gravity)
+std::vector<RecordedMotion> read_motions(const Entry& scene, const std::string& folder,
+                                         double gravity)
 {
     const std::vector<GivenRecord> records = given_records(scene, folder);
     const Reading reading{scene, folder, read_options(scene), gravity, records.size()};
-    std::vector<Motion> motions;
+    std::vector<RecordedMotion> motions;
     std::set<std::string> known; // file, component and accelerations
     for (const GivenRecord& given : records) {
-        const Motion& motion = motions.emplace_back(read_motion(motions.size(), given, reading));
+        const RecordedMotion& motion =
+            motions.emplace_back(read_motion(motions.size(), given, reading));
         const std::string path = fs::weakly_canonical(reading.folder / given.file).string();
         const std::string component = motion.name.substr(motion.file.size());
         if (!known.insert(path + component + ":" + motion.checksum).second) {
@@ -369,12 +371,12 @@ std::vector<Motion> read_motions(const Entry& scene, const std::string& folder, 
     return motions;
 }
 
-MotionOf read_motion_of(const Entry& scene, const std::vector<Motion>& motions)
+MotionOf read_motion_of(const Entry& scene, const std::vector<RecordedMotion>& motions)
 {
     const auto given = find(scene, "motion_of");
     const MotionOf otherwise = given ? choice_of<MotionOf>(*given) : MotionOf::ground;
     std::map<MotionOf, std::string> files;
-    for (const Motion& motion : motions) {
+    for (const RecordedMotion& motion : motions) {
         const MotionOf of_file = motion.stated_motion_of.value_or(otherwise);
         if (given && of_file != otherwise) {
             refuse(*given,

@@ -15,19 +15,20 @@ namespace overturn {
 void apply_override(toml::table& job, const std::string& argument);
 
 /// Reads scene.record and the keys that belong to it. folder: of the job file; gravity [m/s2].
-std::vector<Motion> read_motions(const Entry& scene, const std::string& folder, double gravity);
+std::vector<RecordedMotion> read_motions(const Entry& scene, const std::string& folder,
+                                         double gravity);
 
 /// Whose motion it is: as scene.motion_of says, or the files of the records do.
-MotionOf read_motion_of(const Entry& scene, const std::vector<Motion>& motions);
+MotionOf read_motion_of(const Entry& scene, const std::vector<RecordedMotion>& motions);
 
 /// Reads the table of the blocks of a job. file: relative to the folder. Under records, the column
 /// `motion` contains their names, or those of their files; in the result, their numbers, from 1.
 /// Throws Error.
 BlockTable read_block_table(const std::string& file, const std::string& folder,
-                            const std::vector<Motion>& motions);
+                            const MotionTraits& motion, const std::vector<RecordedMotion>& motions);
 
 /// The columns that describe points.
-std::vector<Given> columns_of(const BlockTable& blocks, bool is_recorded);
+std::vector<Given> columns_of(const BlockTable& blocks, const MotionTraits& motion);
 
 /// Throws Error with the file, and with line and column only if known.
 [[noreturn]] void refuse(const BlockTable& blocks, const GivenError& error);

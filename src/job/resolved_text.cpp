@@ -26,7 +26,7 @@ std::string axis_text(const Axis& axis)
 }
 
 /// One line, so that two jobs with different records differ in the line that names the record.
-std::string motion_text(const Motion& motion)
+std::string motion_text(const RecordedMotion& motion)
 {
     const IntensityMeasures& measures = motion.measures;
     return fmt::format(
@@ -46,13 +46,14 @@ std::string scene_text(const Job& job)
 {
     const Scene& scene = job.problem.scene;
     std::string text = "[scene]\n";
-    if (scene.is_recorded()) {
+    const Pulse* pulse = scene.pulse();
+    if (pulse != nullptr) {
+        text += fmt::format("pulse = \"{}\"\n", name_of(pulse->kind));
+    } else {
         const std::vector<std::string> motions = mapped(job.motions, motion_text);
         const bool is_suite = job.problem.grid.dimension_of(Role::motion).has_value();
         text += is_suite ? fmt::format("record = [\n    {},\n]\n", fmt::join(motions, ",\n    "))
                          : fmt::format("record = {}\n", motions.front());
-    } else {
-        text += fmt::format("pulse = \"{}\"\n", name_of(scene.pulse));
     }
     if (scene.motion_of != Scene().motion_of) {
         text += fmt::format("motion_of = \"{}\"\n", name_of(scene.motion_of));
@@ -62,9 +63,9 @@ std::string scene_text(const Job& job)
         Coordinates(scene, job.problem.grid).has("frequency_parameter")) {
         text += fmt::format("gravity = {}\n", float_text(scene.gravity));
     }
-    for (const auto& [name, number] : shape_numbers) {
-        if (!scene.is_recorded() && has_number(scene.pulse, number)) {
-            text += fmt::format("{} = {}\n", name, float_text(scene.shape.*number));
+    if (pulse != nullptr) {
+        for (const auto& [name, value] : pulse->numbers()) {
+            text += fmt::format("{} = {}\n", name, float_text(value));
         }
     }
     return text;

@@ -27,9 +27,9 @@ double uplift_threshold(Theory theory, double slenderness)
     });
 }
 
-std::shared_ptr<const Accelerogram> directed_record(const Scene& scene, const Point& point)
+Record directed_record(const Scene& scene, const Point& point)
 {
-    const auto& record = scene.records[std::size_t(point.record)];
+    const Record& record = scene.records()[std::size_t(point.record)];
     return scene.has_two_components()
                ? std::make_shared<const Accelerogram>(record->in_direction(point.direction))
                : record;
@@ -38,26 +38,34 @@ std::shared_ptr<const Accelerogram> directed_record(const Scene& scene, const Po
 double pga_of_unit(const Scene& scene, const Point& point)
 {
     const double least = std::min(point.block.slenderness, point.block.other.slenderness);
-    return scene.is_recorded() ? directed_record(scene, point)->peak()
-                               : uplift_threshold(scene.theory, least);
+    return scene.pulse() != nullptr ? uplift_threshold(scene.theory, least)
+                                    : directed_record(scene, point)->peak();
+}
+
+double free_fall_amplitude(const Scene& scene, const Point& point)
+{
+    const auto records = scene.records();
+    return records.empty() ? std::numeric_limits<double>::infinity()
+                           : records[std::size_t(point.record)]->free_fall_scale();
 }
 
 double lifting_pga(const Scene& scene, const Point& point)
 {
-    if (!scene.is_recorded() && point.block.is_symmetric()) {
+    const Pulse* pulse = scene.pulse();
+    if (pulse != nullptr && point.block.is_symmetric()) {
         return uplift_threshold(scene.theory, point.block.slenderness);
     }
     const bool is_mirrored = std::signbit(point.amplitude);
     const Block<double> block = is_mirrored ? point.block.turned() : point.block;
     const UpliftThresholds thresholds{uplift_threshold(scene.theory, block.slenderness),
                                       uplift_threshold(scene.theory, block.other.slenderness)};
-    if (scene.is_recorded()) {
-        const auto record = directed_record(scene, point);
+    if (pulse == nullptr) {
+        const Record record = directed_record(scene, point);
         return record->peak() * record->lifting_scale(thresholds);
     }
     // A positive ground acceleration pushes the block towards its side minus.
     const LobeAmplitudes<double> lobes =
-        largest_lobes(pulse_motion<double>(scene.pulse, scene.shape));
+        largest_lobes(pulse_motion<double>(pulse->kind, pulse->shape));
     const auto lifting = [](double threshold, double lobe) {
         return lobe > 0 ? threshold / lobe : std::numeric_limits<double>::infinity();
     };
@@ -249,7 +257,7 @@ std::vector<Point> Coordinates::points() const
         for_each_offset(count_, coordinate.dimensions,
                         [&](std::size_t offset) { assign(*point++, coordinate.values[offset]); });
     };
-    const bool is_recorded = scene_.is_recorded();
+    const MotionTraits& motion = scene_.motion_traits();
     const bool has_two_sides = grid_.has_two_sides();
     using Numbers = std::span<const PointNumber>;
     for (const PointNumber& number :
@@ -257,8 +265,7 @@ std::vector<Point> Coordinates::points() const
         fill(number.coordinate, [&](Point& point, double value) { number.of(point) = value; });
     }
     fill("restitution", [](Point& point, double r) { point.block.restitution = r; });
-    fill(is_recorded ? "scale" : "amplitude",
-         [](Point& point, double value) { point.amplitude = value; });
+    fill(motion.amplitude, [](Point& point, double value) { point.amplitude = value; });
     if (grid_.find("direction") != nullptr) {
         fill("direction", [&](Point& point, double value) {
             if (scene_.has_two_components()) {
@@ -268,14 +275,11 @@ std::vector<Point> Coordinates::points() const
             }
         });
     }
-    if (is_recorded) {
-        fill("motion",
-             [](Point& point, double motion) { point.record = int(Scene::record_index(motion)); });
+    if (!motion.choice.empty()) {
+        fill(motion.choice,
+             [](Point& point, double number) { point.record = int(Scene::record_index(number)); });
     }
-    fill(has_two_sides && is_recorded ? "samples_per_second"
-         : has_two_sides              ? "angular_frequency"
-         : is_recorded                ? "samples_per_unit"
-                                      : "frequency",
+    fill(has_two_sides ? motion.frequency_with_two_sides : motion.frequency,
          [](Point& point, double value) { point.frequency = value; });
     points.resize(size, Point(points.front()));
     if (has_two_sides) {

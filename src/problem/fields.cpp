@@ -84,7 +84,7 @@ double angle(const EndOfPoint& end)
 
 std::uint16_t impacts(const EndOfPoint& end)
 {
-    return end.outcome.stored_impacts(end.scene().is_recorded());
+    return end.outcome.stored_impacts(end.scene().motion_traits().lifts_again);
 }
 
 std::uint8_t status_bits(const EndOfPoint& end)

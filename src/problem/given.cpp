@@ -35,17 +35,16 @@ void expect_no_alternatives(const std::vector<Given>& given)
     }
 }
 
-/// The place of an axis among the dimensions; smaller is slower. Under records, the size of the
-/// block is the fastest.
-int order_of(std::string_view dimension, bool is_recorded)
+/// The place of an axis among the dimensions; smaller is slower.
+int order_of(std::string_view dimension, const MotionTraits& motion)
 {
     const auto place = [](std::string_view name) {
         return int(find_quantity(name) - all_quantities().data());
     };
-    const bool is_size = are_equivalent(dimension, "size");
-    return dimension == table_dimension ? place("width")
-           : is_recorded && is_size     ? int(all_quantities().size())
-                                        : place(dimension);
+    const std::string_view fastest = motion.fastest_dimension;
+    return dimension == table_dimension                             ? place("width")
+           : !fastest.empty() && are_equivalent(dimension, fastest) ? int(all_quantities().size())
+                                                                    : place(dimension);
 }
 
 [[noreturn]] void refuse(std::string_view quantity, const std::string& message)
@@ -100,7 +99,7 @@ void expect_motion(const Scene& scene, const Coordinates& coordinates, const Gri
         refuse_given("amplitude", fmt::format(reason, "pga [g]"));
         refuse_given("frequency", fmt::format(reason, "pulse_period [s] or pulse_frequency [Hz]"));
     }
-    if (scene.is_recorded()) {
+    if (scene.is_under(Under::record)) {
         expect(coordinates, "scale", "scale", "Give scale, a factor on the record, or pga [g].");
         expect(coordinates, "frequency_parameter", "size",
                "Give size [m] or frequency_parameter [1/s], or width and height [m].");
@@ -252,7 +251,7 @@ void expect_directions(const Scene& scene, const Grid& grid)
         refuse("direction", " is missing. Two horizontal components need a direction in degrees, "
                             "from the first component towards the second one.");
     }
-    for (const auto& record : scene.records) {
+    for (const auto& record : scene.records()) {
         if (record->peak() == 0 || std::ranges::all_of(record->second(), is_zero)) {
             refuse("direction", " needs two horizontal components, but one of them is zero at all "
                                 "times. Correct it, or give the other one alone.");
@@ -264,9 +263,12 @@ void expect_directions(const Scene& scene, const Grid& grid)
 void expect_gravity(const Scene& scene, const Grid& grid)
 {
     const std::vector<Extent> scales = scales_of(scene, grid);
+    if (scales.empty()) {
+        return;
+    }
     const Accelerogram* weakest = nullptr; // of those with points
     for (std::size_t i = 0; i < scales.size(); ++i) {
-        const Accelerogram& record = *scene.records[i];
+        const Accelerogram& record = *scene.records()[i];
         if (scales[i].first < record.free_fall_scale()) {
             return;
         }
@@ -294,9 +296,7 @@ void expect_valid(const Scene& scene, const Grid& grid)
     expect_directions(scene, grid);
     expect_limits(coordinates, corners);
     expect_metres(scene, coordinates, corners);
-    if (scene.is_recorded()) {
-        expect_gravity(scene, corners);
-    }
+    expect_gravity(scene, corners);
 }
 
 } // namespace
@@ -321,10 +321,9 @@ Grid grid_of(const Scene& scene, std::vector<Given> given)
     if (!table.columns.empty()) {
         grid.dimensions.push_back(std::move(table));
     }
-    // The rows of a table have the place of the width, the first quantity of a block. Under
-    // records, the size of the block comes last.
+    // The rows of a table have the place of the width, the first quantity of a block.
     std::ranges::stable_sort(grid.dimensions, {}, [&](const Dimension& dimension) {
-        return order_of(dimension.name, scene.is_recorded());
+        return order_of(dimension.name, scene.motion_traits());
     });
     expect_valid(scene, grid);
     return grid;
@@ -349,6 +348,9 @@ Grid corners_of(const Grid& grid)
 
 std::vector<Extent> scales_of(const Scene& scene, const Grid& grid)
 {
+    if (scene.records().empty()) {
+        return {};
+    }
     const Grid corners = corners_of(grid);
     const Coordinates coordinates(scene, corners);
     // One of scale and pga is given, and the other varies along the dimensions of the strength and
@@ -357,7 +359,7 @@ std::vector<Extent> scales_of(const Scene& scene, const Grid& grid)
     const std::vector<std::size_t>& dimensions = coordinates.of(derived).dimensions;
     const std::vector<double> scale = coordinates.along(dimensions, "scale");
     const std::vector<double> motion = coordinates.along(dimensions, "motion");
-    std::vector<Extent> scales(scene.records.size());
+    std::vector<Extent> scales(scene.records().size());
     for (std::size_t i = 0; i < scale.size(); ++i) {
         scales[Scene::record_index(motion[i])].include(scale[i]);
     }

@@ -23,11 +23,11 @@ Shape stored_shape(const Problem& problem)
 std::vector<Field> boundary_fields(const Scene& scene, const Grid& grid)
 {
     std::vector<Field> fields{Field::flip_amplitude, Field::region_below, Field::region_above};
-    if (scene.is_recorded() || grid.find("pga") != nullptr ||
-        Coordinates(scene, grid).has("size")) {
+    const bool is_sensitive = scene.motion_traits().is_sensitive;
+    if (is_sensitive || grid.find("pga") != nullptr || Coordinates(scene, grid).has("size")) {
         fields.push_back(Field::flip_pga);
     }
-    if (scene.is_recorded()) {
+    if (is_sensitive) {
         fields.insert(fields.end(), {Field::unsafe_share, Field::undecided_share});
     }
     return fields;
@@ -87,7 +87,7 @@ std::vector<StoredDimension> Spectrum::dimensions(const Problem& problem) const
 // record, 16 x 16 points take as long.
 Shape Spectrum::tile(const Problem& problem) const
 {
-    return tile_of(problem.grid, problem.scene.is_recorded() ? 16 : 64);
+    return tile_of(problem.grid, problem.scene.motion_traits().tile_side);
 }
 
 Items Spectrum::items(const Problem& problem) const
@@ -103,8 +103,8 @@ Shape FilledSpectrum::tile(const Problem& problem) const
 std::vector<StoredDimension> Boundaries::dimensions(const Problem& problem) const
 {
     std::vector<StoredDimension> dimensions = Spectrum().dimensions(problem);
-    dimensions[*problem.grid.dimension_of(Role::strength)] = {std::string(flip_dimension),
-                                                              most_flips(problem.scene)};
+    dimensions[*problem.grid.dimension_of(Role::strength)] = {
+        std::string(flip_dimension), problem.scene.motion_traits().most_flips};
     return dimensions;
 }
 
@@ -119,7 +119,8 @@ Shape Boundaries::tile(const Problem& problem) const
 
 Items Boundaries::items(const Problem& problem) const
 {
-    return {count_points(stored_shape(problem)) / most_flips(problem.scene), "lines"};
+    return {count_points(stored_shape(problem)) / problem.scene.motion_traits().most_flips,
+            "lines"};
 }
 
 Tiling tiling_of(const Problem& problem)
@@ -136,7 +137,7 @@ Items items_of(const Problem& problem)
 
 std::string reason_not_to_fill(const Problem& problem)
 {
-    if (problem.scene.is_recorded()) {
+    if (problem.scene.motion_traits().is_sensitive) {
         return "under a record regions have no simple boundaries";
     }
     if (problem.grid.table() != nullptr) {

@@ -15,8 +15,8 @@ struct Archive {
     bool is_input;
     std::size_t next = 0; ///< of an input
 
-    template <class Value>
-        requires std::is_trivially_copyable_v<Value>
+    template <class Value> // not a class, which may have padding
+        requires std::is_arithmetic_v<Value> || std::is_enum_v<Value>
     void transfer(Value& value)
     {
         if (is_input) {
@@ -37,6 +37,12 @@ struct Archive {
         for (auto& element : list) {
             transfer(element);
         }
+    }
+
+    void transfer(AxisRange& range)
+    {
+        auto& [first, last, count, spacing] = range;
+        transfer_all(first, last, count, spacing);
     }
 
     void transfer(Axis& axis)
@@ -90,14 +96,38 @@ struct Archive {
                                                       time_step, std::move(second));
     }
 
+    void transfer(Pulse& pulse)
+    {
+        auto& [kind, shape] = pulse;
+        auto& [window, cycles, gamma, nu] = shape;
+        transfer_all(kind, window, cycles, gamma, nu);
+    }
+    void transfer(Suite& suite) { transfer(suite.records); }
+
+    void transfer(Motion& motion)
+    {
+        std::size_t kind = motion.index();
+        transfer(kind);
+        if (is_input) {
+            motion = std::array<Motion, 2>{Pulse(), Suite()}[kind];
+        }
+        std::visit([&](auto& of_kind) { transfer(of_kind); }, motion);
+    }
+
+    void transfer(Numerics& numerics)
+    {
+        auto& [method, tolerance, resolve] = numerics;
+        transfer_all(method, tolerance, resolve);
+    }
+
     void transfer(Problem& problem)
     {
         // With structured bindings, a new member that is not named here does not compile.
         auto& [scene, grid, numerics, product, fields] = problem;
-        auto& [pulse, theory, shape, records, gravity, motion_of] = scene;
+        auto& [motion, theory, gravity, motion_of] = scene;
         auto& [numbers, dimensions] = grid;
-        transfer_all(pulse, theory, shape, records, gravity, motion_of, numbers, dimensions,
-                     numerics, product, fields);
+        transfer_all(motion, theory, gravity, motion_of, numbers, dimensions, numerics, product,
+                     fields);
     }
 
     template <class... Values>

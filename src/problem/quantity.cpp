@@ -48,7 +48,7 @@ using Values = Derivation::Values;
 
 const Accelerogram& record_of(const Scene& scene, double motion)
 {
-    return *scene.records[Scene::record_index(motion)];
+    return *scene.records()[Scene::record_index(motion)];
 }
 
 /// Not std::hypot: that of the C library rounds differently on other processors. The unit, a power

@@ -68,18 +68,19 @@ Scene scene_of_pulse(const std::string& pulse, const std::string& theory, double
                      const std::map<std::string, double>& shape)
 {
     Scene scene;
-    scene.pulse = choice_of<PulseKind>("pulse", pulse);
+    Pulse of_scene{choice_of<PulseKind>("pulse", pulse)};
     scene.theory = choice_of<Theory>("theory", theory);
     scene.gravity = allowed("gravity", gravity);
     for (const auto& [name, number] : shape_numbers) {
         const auto given = shape.find(std::string(name));
         const auto value = given == shape.end() ? std::nullopt : std::optional(given->second);
-        const std::string refusal = refusal_of(scene.pulse, number, value);
+        const std::string refusal = refusal_of(of_scene.kind, number, value);
         if (!refusal.empty()) {
             throw std::invalid_argument(std::string(name) + refusal);
         }
-        scene.shape.*number = value.value_or(scene.shape.*number);
+        of_scene.shape.*number = value.value_or(of_scene.shape.*number);
     }
+    scene.motion = of_scene;
     return scene;
 }
 
@@ -91,9 +92,9 @@ Scene scene_of_record(const Values& horizontal, const Values& second, const Valu
     Scene scene;
     scene.theory = choice_of<Theory>("theory", theory);
     scene.gravity = allowed("gravity", gravity);
-    scene.records.push_back(
-        std::make_shared<const Accelerogram>(vector_of(horizontal), vector_of(upwards),
-                                             allowed("time_step", time_step), vector_of(second)));
+    scene.motion = Suite{
+        {std::make_shared<const Accelerogram>(vector_of(horizontal), vector_of(upwards),
+                                              allowed("time_step", time_step), vector_of(second))}};
     return scene;
 }
 
@@ -107,7 +108,8 @@ Numerics numerics_of(const Scene& scene, const std::string& method, std::optiona
     if (tolerance || resolve) {
         numerics.tolerance = allowed("tolerance", tolerance.value_or(tolerance_to_resolve_from));
     }
-    if (scene.is_recorded() && numerics.method != Method::taylor) {
+    if (const MotionTraits& motion = scene.motion_traits();
+        numerics.method != motion.method && !motion.has_other_methods) {
         throw std::invalid_argument(fmt::format("method = \"{}\" is for pulses only. Use "
                                                 "\"taylor\", the default.",
                                                 method));
@@ -156,8 +158,8 @@ Grid grid_of_columns(const Scene& scene, const Columns& columns)
         }
         given.push_back({&quantity, name, Axis(rows), GivenAs::column});
     }
-    if (scene.is_recorded()) {
-        given.push_back({&quantity("motion"), "record", Axis(AxisList{1}), GivenAs::number});
+    if (const std::string_view choice = scene.motion_traits().choice; !choice.empty()) {
+        given.push_back({&quantity(choice), "record", Axis(AxisList{1}), GivenAs::number});
     }
     return grid_of(scene, std::move(given));
 }

@@ -109,13 +109,14 @@ std::vector<Numerics> accuracy_ladder(const Scene& scene)
 {
     constexpr std::array tolerances{1e-2, 1e-3,  1e-4,  1e-5,  1e-6,  1e-7, 1e-8,
                                     1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14};
+    const MotionTraits& motion = scene.motion_traits();
     std::vector<Numerics> ladder;
     for (const bool resolve : {false, true}) {
         for (const Method method : {Method::rk45, Method::taylor}) {
             for (const double tolerance : tolerances) {
                 const Numerics numerics{method, tolerance, resolve};
                 // With a smaller tolerance, nothing is left to resolve.
-                const bool is_allowed = method == Method::taylor || !scene.is_recorded();
+                const bool is_allowed = method == motion.method || motion.has_other_methods;
                 if (is_allowed && (!resolve || (knows_errors(numerics) && tolerance >= 1e-8))) {
                     ladder.push_back(numerics);
                 }

@@ -16,6 +16,12 @@ namespace overturn {
 
 namespace {
 
+/// The strength from which on the vertical motion cancels gravity; infinite if there is none.
+double free_fall_strength(const Scene& scene, const BoundaryLine& line)
+{
+    return free_fall_amplitude(scene, line.point) * std::abs(line.unit);
+}
+
 /// Verdicts must be right. The scan uses a loose tolerance and resolves verdicts in doubt.
 constexpr Numerics scanning{.method = Method::taylor, .tolerance = 1e-6, .resolve = true};
 
@@ -172,19 +178,17 @@ public:
                         : CoarseSearch{below.amplitude, above.amplitude, step};
     }
 
-    /// Under a record, the amplitudes below that at which its vertical motion cancels gravity; all
-    /// others are undecided.
+    /// The amplitudes below that at which the vertical motion cancels gravity; all others are
+    /// undecided.
     std::vector<double> without_free_fall(std::vector<double> amplitudes)
     {
-        const Accelerogram& record = *scene_.records[std::size_t(line_.point.record)];
-        const double free_fall = record.free_fall_scale() * std::abs(line_.unit);
+        const double free_fall = free_fall_strength(scene_, line_);
         const auto first = std::lower_bound(amplitudes.begin(), amplitudes.end(), free_fall);
         if (first != amplitudes.end()) {
             add_undecided(*first);
             add_undecided(amplitudes.back());
             amplitudes.erase(first, amplitudes.end());
-            // Just below, by more than the roundings of a scale.
-            const double last = free_fall * (1 - 4 * std::numeric_limits<double>::epsilon());
+            const double last = last_before_free_fall(scene_, line_);
             if (!amplitudes.empty() && amplitudes.back() < last) {
                 amplitudes.push_back(last);
             }
@@ -405,6 +409,11 @@ void add_shares(const std::vector<Probe>& probes, Boundary& boundary)
 
 } // namespace
 
+double last_before_free_fall(const Scene& scene, const BoundaryLine& line)
+{
+    return free_fall_strength(scene, line) * (1 - 4 * std::numeric_limits<double>::epsilon());
+}
+
 Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
                      const std::vector<double>& amplitudes, Kernel kernel,
                      const std::optional<FlipSearch>& search)
@@ -412,7 +421,8 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
     Line line(scene, where, kernel, search.value_or(flip_search(scene)));
     const std::size_t most_flips = line.search.most_flips;
     std::vector<Probe> probes;
-    if (scene.is_recorded()) {
+    const bool is_sensitive = scene.motion_traits().is_sensitive;
+    if (is_sensitive) {
         // A margin says nothing about the verdicts next to it: the block has often come to rest
         // long before the end.
         const std::vector<double> scanned = line.without_free_fall(amplitudes);
@@ -439,7 +449,7 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
     boundary.region_at_first = probes.front().region;
     boundary.complete = line.undecided.empty();
     boundary.coarse = line.coarse;
-    if (scene.is_recorded()) {
+    if (is_sensitive) {
         add_shares(probes, boundary);
     }
     for (std::size_t i = 1; i < probes.size() && !boundary.has_more; ++i) {

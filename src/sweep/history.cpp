@@ -316,13 +316,13 @@ History history_of(const Scene& scene, const Point& point, const HistoryView& vi
                        point, excitation, view)
                 .build();
         };
-        if (scene.is_recorded()) {
-            const auto record = directed_record(scene, point);
-            return build(
-                record_excitation<theory>(*record, point.block, point.amplitude, point.frequency));
+        if (const Pulse* pulse = scene.pulse()) {
+            return build(pulse_excitation<theory>(pulse_motion<double>(pulse->kind, pulse->shape),
+                                                  point.block, point.amplitude, point.frequency));
         }
-        return build(pulse_excitation<theory>(pulse_motion<double>(scene.pulse, scene.shape),
-                                              point.block, point.amplitude, point.frequency));
+        const Record record = directed_record(scene, point);
+        return build(
+            record_excitation<theory>(*record, point.block, point.amplitude, point.frequency));
     });
     history.is_curve_certain = history.error < std::abs(history.margin);
     if (!history.is_curve_certain) {

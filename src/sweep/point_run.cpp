@@ -16,10 +16,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// The records of points, in their order; those of equal directions are the same object.
-std::vector<std::shared_ptr<const Accelerogram>> records_of(const Scene& scene,
-                                                            const std::vector<Point>& points)
+std::vector<Record> records_of(const Scene& scene, const std::vector<Point>& points)
 {
-    std::map<std::pair<int, double>, std::shared_ptr<const Accelerogram>> known;
+    std::map<std::pair<int, double>, Record> known;
     return mapped(points, [&](const Point& point) {
         auto& record = known[{point.record, point.direction}];
         record = record ? record : directed_record(scene, point);
@@ -98,13 +97,13 @@ ScaledPulses::ScaledPulses(const PulseMotion<double>& motion, Theory theory,
 
 PointRun::PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
                    DropRequested drop_requested, bool are_symmetric)
-    : PointsOfScene(scene, std::move(points)),
-      pulse_(pulse_motion<double>(scene.pulse, scene.shape)), kernel_(kernel),
-      drop_requested_(std::move(drop_requested)),
-      pulses_(scene.is_recorded() ? ScaledPulses() : ScaledPulses(pulse_, scene.theory, points_)),
-      are_symmetric_(are_symmetric)
+    : PointsOfScene(scene, std::move(points)), kernel_(kernel),
+      drop_requested_(std::move(drop_requested)), are_symmetric_(are_symmetric)
 {
-    if (scene.is_recorded()) {
+    if (const Pulse* pulse = scene.pulse()) {
+        pulse_ = pulse_motion<double>(pulse->kind, pulse->shape);
+        pulses_ = ScaledPulses(pulse_, scene.theory, points_);
+    } else {
         records_ = records_of(scene_, points_);
     }
 }
@@ -139,9 +138,10 @@ auto PointRun::with_excitation(int point, const Visitor& visit) const
         return visit(
             PulseExcitation<double>{pulse_, pulse.acceleration, at.frequency, pulse.uplifts});
     } else {
-        const auto exact = pulse_excitation<theory>(
-            pulse_motion<Digits50>(scene_.pulse, scene_.shape), block_in<Digits50>(at.block),
-            Digits50(at.amplitude), Digits50(at.frequency));
+        const Pulse& pulse = *scene_.pulse();
+        const auto exact = pulse_excitation<theory>(pulse_motion<Digits50>(pulse.kind, pulse.shape),
+                                                    block_in<Digits50>(at.block),
+                                                    Digits50(at.amplitude), Digits50(at.frequency));
         if constexpr (std::same_as<T, Digits31>) {
             return visit(in_31_digits(exact));
         } else {
@@ -160,14 +160,13 @@ void PointRun::throw_if_dropped() const
 void PointRun::run(const Numerics& numerics, Outcomes& outcomes, const std::vector<int>& chosen,
                    UncertainImpact uncertain_impact) const
 {
-    run_by(integrator_of(scene_, numerics), numerics.tolerance, outcomes, chosen, uncertain_impact);
+    run_by(scene_.integrator(numerics), numerics.tolerance, outcomes, chosen, uncertain_impact);
 }
 
 void PointRun::run_in_31_digits(Outcomes& outcomes, const std::vector<int>& chosen) const
 {
-    if (scene_.is_recorded()) {
-        run_by(Integrator::recorded_31, MoreDigits<Digits31>::tolerance, outcomes, chosen,
-               UncertainImpact::go_on);
+    if (const auto kernel = scene_.motion_traits().in_31_digits) {
+        run_by(*kernel, MoreDigits<Digits31>::tolerance, outcomes, chosen, UncertainImpact::go_on);
         return;
     }
     for (const int point : chosen) {
@@ -203,7 +202,7 @@ void PointRun::run_by(Integrator integrator, double tolerance, Outcomes& outcome
         sweep_kernel(kernel_, integrator, scene_.theory, outcomes.outputs, directions)(task);
         throw_if_dropped(); // if dropped, some outcomes may be missing
     };
-    if (!scene_.is_recorded()) {
+    if (records_.empty()) {
         run_under(nullptr, chosen);
         return;
     }
@@ -256,7 +255,7 @@ void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
         outcome.impacts = double(end.impacts);
         outcome.steps = double(end.steps);
         outcome.phase = double(end.phase);
-        if (scene_.is_recorded()) {
+        if (scene_.motion_traits().is_sensitive) {
             outcome.peak = double(end.peak);
         }
     });
@@ -346,11 +345,11 @@ void judge_contact(Outcome& outcome, bool is_known)
 
 void PointRun::add_contact(Outcomes& outcomes) const
 {
-    const bool is_recorded = scene_.is_recorded();
+    const bool is_sensitive = scene_.motion_traits().is_sensitive;
     Outcomes watched(
-        size(), {.error = is_recorded, .contact = true, .region = true, .margin = is_recorded});
+        size(), {.error = is_sensitive, .contact = true, .region = true, .margin = is_sensitive});
     run(most_accurate, watched, all());
-    if (is_recorded) {
+    if (is_sensitive) {
         std::vector<int> in_doubt = all();
         std::erase_if(in_doubt, [&](int i) { return !watched[i].has(outcome_flag::in_doubt); });
         run_in_31_digits(watched, in_doubt);

@@ -112,11 +112,11 @@ private:
     template <class T, Theory theory, class Visitor>
     auto with_excitation(int point, const Visitor& visit) const;
 
-    PulseMotion<double> pulse_; // not used under records
+    PulseMotion<double> pulse_{}; // only under a pulse
     Kernel kernel_;
     DropRequested drop_requested_;
-    ScaledPulses pulses_;                                      // only under a pulse
-    std::vector<std::shared_ptr<const Accelerogram>> records_; // of the points; empty under a pulse
+    ScaledPulses pulses_;         // the same
+    std::vector<Record> records_; // of the points; empty under a pulse
     bool are_symmetric_;
 };
 

@@ -37,8 +37,9 @@ std::vector<double> friction_to_topple(const Problem& of_one_point, const Verdic
     std::ranges::sort(accelerations);
     const auto [begin, end] = std::ranges::unique(accelerations);
     accelerations.erase(begin, end);
+    const std::string strength(scene.motion_traits().answer_strength);
     const std::vector<double> strengths = mapped(accelerations, [&](double acceleration) {
-        return scene.is_recorded() ? acceleration / unit : acceleration;
+        return strength == "pga" ? acceleration : acceleration / unit;
     });
     Problem problem = of_one_point;
     // A pattern that matches one file is a dimension, of one motion.
@@ -47,7 +48,6 @@ std::vector<double> friction_to_topple(const Problem& of_one_point, const Verdic
     }
     std::erase_if(problem.grid.numbers,
                   [](const Column& number) { return number.quantity->role == Role::strength; });
-    const std::string strength = scene.is_recorded() ? "scale" : "pga";
     problem.grid.dimensions = {{strength, {{&quantity(strength), Axis(AxisList(strengths))}}}};
     const std::vector<double> friction = accurate_values(problem, Field::friction);
     std::vector<double> needed;

@@ -19,7 +19,7 @@ FlipSearch search_in(const Scene& scene, const DropRequested& drop_requested)
 {
     FlipSearch search = flip_search(scene);
     search.drop_requested = drop_requested;
-    if (scene.is_recorded()) {
+    if (scene.motion_traits().is_sensitive) {
         // Above every step of the scan, which is therefore not divided.
         search.finest_step = 2 * toppling_step;
         search.most_in_50_digits = 0;
@@ -36,7 +36,7 @@ std::vector<double> with_neighbours(std::vector<double> scan, double included, c
 {
     constexpr int neighbours = 20; // on each side
     constexpr double step = 0.001; // over the acceleration
-    const int most = scene.is_recorded() ? neighbours : 0;
+    const int most = scene.motion_traits().is_sensitive ? neighbours : 0;
     const double first = scan.front();
     const double last = scan.back();
     for (int i = -most; i <= most; ++i) {
@@ -68,7 +68,7 @@ std::vector<double> scanned_accelerations(const Scene& scene, double first, doub
     const auto values = [](double from, double to, double steps, Spacing spacing) {
         return Axis(AxisRange{from, to, 1 + std::int64_t(std::ceil(steps)), spacing}).values();
     };
-    if (scene.is_recorded()) {
+    if (scene.motion_traits().is_sensitive) {
         return values(first, last, std::max(std::log(last / first) / toppling_step, 10.0),
                       Spacing::log);
     }
@@ -88,14 +88,9 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
 {
     VerdictRanges ranges;
     ranges.lifting = lifting;
-    if (scene.is_recorded()) {
-        const double free_fall =
-            scene.records[std::size_t(line.point.record)]->free_fall_scale() * std::abs(line.unit);
-        // Just below, by more than the roundings of a scale.
-        const double last = free_fall * (1 - 4 * std::numeric_limits<double>::epsilon());
-        ranges.ends_in_free_fall = last < end;
-        end = std::min(end, last);
-    }
+    const double computable = last_before_free_fall(scene, line);
+    ranges.ends_in_free_fall = computable < end;
+    end = std::min(end, computable);
     if (!(lifting < end)) {
         ranges.all.push_back({0, end, Verdict::safe});
         return ranges;

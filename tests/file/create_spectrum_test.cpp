@@ -105,12 +105,11 @@ TEST_F(CreateSpectrumFile, StoresTheSizeOfTheBlockIfTheJobDefinesIt)
 TEST_F(CreateSpectrumFile, StoresTheNumbersOfItsPulseOnly)
 {
     create("ricker.h5");
-    job.problem.scene.pulse = PulseKind::one_sine;
+    job.problem.scene.motion = Pulse{PulseKind::one_sine};
     create("sine.h5");
     EXPECT_EQ(global_number(folder / "ricker.h5", "window"), 1.25);
     EXPECT_EQ(global_number(folder / "sine.h5", "window"), std::nullopt);
-    job.problem.scene.pulse = PulseKind::mavroeidis_papageorgiou;
-    job.problem.scene.shape = {.gamma = 2.5, .nu = 0.5};
+    job.problem.scene.motion = Pulse{PulseKind::mavroeidis_papageorgiou, {.gamma = 2.5, .nu = 0.5}};
     create("pulse.h5");
     EXPECT_EQ(global_number(folder / "pulse.h5", "gamma"), 2.5);
     EXPECT_EQ(global_number(folder / "pulse.h5", "nu"), 0.5);

@@ -20,9 +20,8 @@ inline Job sample_job()
     Job job;
     job.title = "Sample: r = r_max, α = 10°";
     Problem& problem = job.problem;
-    problem.scene = {.pulse = PulseKind::symmetric_ricker,
-                     .theory = Theory::nonlinear,
-                     .shape = {.window = 1.25}};
+    problem.scene = {.motion = Pulse{PulseKind::symmetric_ricker, {.window = 1.25}},
+                     .theory = Theory::nonlinear};
     problem.grid =
         grid_of(problem.scene, {axis("frequency", AxisRange{0.5, 12, 131, Spacing::linear}),
                                 axis("amplitude", AxisRange{0.25, 16, 67, Spacing::linear}),

@@ -77,11 +77,12 @@ void name_point(const Problem& problem, std::int64_t row, std::int64_t column, i
         "  WRONG: %s %s %s %g%s, window %.17g, cycles %g, gamma %.17g, nu %.17g, alpha "
         "%.17g, r %.17g, R %.17g, p %.17g, other side: %.17g, %.17g, %.17g, rate %s, strength "
         "%s, direction %g, %lld points a side%s: row %lld, column %lld: filled %d, integrated %d\n",
-        std::string(name_of(scene.pulse)).c_str(), std::string(name_of(scene.theory)).c_str(),
-        std::string(name_of(numerics.method)).c_str(), numerics.tolerance,
-        numerics.resolve ? " resolved" : "", scene.shape.window, scene.shape.cycles,
-        scene.shape.gamma, scene.shape.nu, block.slenderness, block.restitution, block.size,
-        block.pace, block.other.slenderness, block.other.size, block.other.pace,
+        std::string(name_of(scene.pulse()->kind)).c_str(),
+        std::string(name_of(scene.theory)).c_str(), std::string(name_of(numerics.method)).c_str(),
+        numerics.tolerance, numerics.resolve ? " resolved" : "", scene.pulse()->shape.window,
+        scene.pulse()->shape.cycles, scene.pulse()->shape.gamma, scene.pulse()->shape.nu,
+        block.slenderness, block.restitution, block.size, block.pace, block.other.slenderness,
+        block.other.size, block.other.pace,
         text_of(grid.axis_or_number(Role::rate)->values).c_str(), text_of(amplitude).c_str(),
         point.amplitude < 0 ? 180.0 : 0.0, static_cast<long long>(amplitude.size()),
         has_impacts(problem) ? ", with impacts" : "", static_cast<long long>(row),
@@ -149,19 +150,19 @@ Counts compare(const HardTile& hard, const FillRule& rule)
 std::vector<HardTile> hard_tiles()
 {
     const Problem sine = filled_spectrum(
-        {.pulse = PulseKind::sine, .shape = {.cycles = 2.5}},
+        {.motion = Pulse{PulseKind::sine, {.cycles = 2.5}}},
         {.method = Method::taylor, .tolerance = 1e-6},
         {number("slenderness", 0.26662054772862431), number("restitution", 0.8025885124983132),
          axis("amplitude", AxisRange{1.001, 1.4804846656126971, 868}),
          axis("frequency", AxisRange{0.05, 1.8128522632822612, 868})});
     const Problem cosine = filled_spectrum(
-        {.pulse = PulseKind::cosine, .shape = {.cycles = 3}}, {},
+        {.motion = Pulse{PulseKind::cosine, {.cycles = 3}}}, {},
         {number("slenderness", 0.14424994278535325), number("restitution", 0.9776654199149466),
          axis("amplitude", AxisRange{1.001, 1.4381634078456134, 400}),
          axis("frequency", AxisRange{0.05, 1.5294371192114744, 400})},
         true);
     const Problem long_sine = filled_spectrum(
-        {.pulse = PulseKind::sine, .shape = {.cycles = 2.5}},
+        {.motion = Pulse{PulseKind::sine, {.cycles = 2.5}}},
         {.method = Method::taylor, .tolerance = 1e-6},
         {number("slenderness", 0.074652571386679634), number("restitution", 0.98338163828903169),
          axis("amplitude", AxisRange{0.51442284163307428, 5.9931804499549077, 870, Spacing::log}),
@@ -174,7 +175,7 @@ std::vector<HardTile> hard_tiles()
 Problem paper_problem(PulseKind pulse, double restitution, std::int64_t side)
 {
     return filled_spectrum(
-        {.pulse = pulse}, {},
+        {.motion = Pulse{pulse}}, {},
         {number("slenderness", std::atan(1 / 5.67)), number("restitution_of_maximum", restitution),
          axis("amplitude", AxisRange{0.1, 16, side}), axis("frequency", AxisRange{0.1, 12, side})});
 }
@@ -187,12 +188,13 @@ public:
     Problem next(bool corner, bool has_two_sides)
     {
         Scene scene;
-        scene.pulse = PulseKind(std::size_t(uniform() * double(pulses.size())));
+        const auto kind = PulseKind(std::size_t(uniform() * double(pulses.size())));
         scene.theory = uniform() < 0.7 ? Theory::nonlinear : Theory::linear;
-        scene.shape = {.window = between(0.5, 2),
-                       .cycles = std::round(uniform() * 5 + 1) / 2,
-                       .gamma = between(1, 3),
-                       .nu = between(-pi<double>(), pi<double>())};
+        scene.motion = Pulse{kind,
+                             {.window = between(0.5, 2),
+                              .cycles = std::round(uniform() * 5 + 1) / 2,
+                              .gamma = between(1, 3),
+                              .nu = between(-pi<double>(), pi<double>())}};
         Numerics numerics;
         numerics.method = uniform() < 0.5 ? Method::rk45 : Method::taylor;
         numerics.tolerance =

@@ -42,7 +42,9 @@ void use(const Job& job, const std::string& path)
            "an accepted job has no points");
     demand(spectrum_file_bytes(job) > double(problem.grid.points()),
            "a file is smaller than its values");
-    cut_by_window(problem.scene);
+    if (const Pulse* pulse = problem.scene.pulse()) {
+        cut_by_window(*pulse);
+    }
     write_bytes(path, job.resolved);
     const std::string again = read_job(path).resolved;
     demand(again == job.resolved,

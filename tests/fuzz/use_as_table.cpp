@@ -31,7 +31,7 @@ std::vector<Given> columns_of(const Table& table)
                    column.first_text < table.rows(),
                "a column does not have a value in each row");
         const Quantity* quantity = find_quantity(column.name);
-        if (!is_text && quantity != nullptr && quantity->applies_under(false) &&
+        if (!is_text && quantity != nullptr && quantity->applies_under(Pulse::traits) &&
             std::ranges::all_of(column.numbers,
                                 [&](double value) { return quantity->allows(value); })) {
             columns.push_back({quantity, column.name, Axis(column.numbers), GivenAs::column});

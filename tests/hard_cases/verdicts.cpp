@@ -77,7 +77,7 @@ std::optional<bool> verdict_of(const Truth& truth)
 Outcome outcome_of(const HardCase& point, const Numerics& numerics)
 {
     const Problem problem{
-        .scene = {.pulse = point.pulse, .theory = point.theory, .shape = {.window = point.window}},
+        .scene = {.motion = Pulse{point.pulse, {.window = point.window}}, .theory = point.theory},
         .grid = grid_of_point(point),
         .numerics = numerics,
         .fields = {Field::region, Field::angle, Field::velocity, Field::margin, Field::error,

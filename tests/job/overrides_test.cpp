@@ -89,7 +89,8 @@ TEST(AnOverride, OfAnAxisThatIsANumberIsRefusedAtTheNumberIfItIsWrong)
 
 TEST(AnOverride, AcceptsABareWordAsAString)
 {
-    EXPECT_EQ(job_with({"scene.pulse=one_cosine"}).problem.scene.pulse, PulseKind::one_cosine);
+    EXPECT_EQ(job_with({"scene.pulse=one_cosine"}).problem.scene.pulse()->kind,
+              PulseKind::one_cosine);
     EXPECT_EQ(job_with({"title=Two words, and Ω (omega)"}).title, "Two words, and Ω (omega)");
 }
 
@@ -187,8 +188,10 @@ TEST(AnOverride, OfTheMotionRemovesTheQuantitiesThatDoNotApply)
 TEST(AnOverride, OfThePulseRemovesAWindowThatDoesNotApply)
 {
     const std::string text = sound_job_with(3, "pulse = \"symmetric_ricker\"\nwindow = 2");
-    EXPECT_EQ(job_of(text, {"scene.pulse=half_sine"}).problem.scene.pulse, PulseKind::half_sine);
-    EXPECT_EQ(job_of(text, {"scene.pulse=antisymmetric_ricker"}).problem.scene.shape.window, 2);
+    EXPECT_EQ(job_of(text, {"scene.pulse=half_sine"}).problem.scene.pulse()->kind,
+              PulseKind::half_sine);
+    EXPECT_EQ(
+        job_of(text, {"scene.pulse=antisymmetric_ricker"}).problem.scene.pulse()->shape.window, 2);
 }
 
 TEST(AnOverride, OfThePulseRemovesTheNumbersOfTheOther)
@@ -196,8 +199,8 @@ TEST(AnOverride, OfThePulseRemovesTheNumbersOfTheOther)
     const std::string text =
         sound_job_with(3, "pulse = \"mavroeidis_papageorgiou\"\ngamma = 2\nnu = 0.3");
     const Job job = job_of(text, {"scene.pulse=sine", "scene.cycles=2.5"});
-    EXPECT_EQ(job.problem.scene.pulse, PulseKind::sine);
-    EXPECT_EQ(job.problem.scene.shape.cycles, 2.5);
+    EXPECT_EQ(job.problem.scene.pulse()->kind, PulseKind::sine);
+    EXPECT_EQ(job.problem.scene.pulse()->shape.cycles, 2.5);
     EXPECT_EQ(job.resolved.find("gamma"), std::string::npos);
 }
 

@@ -56,9 +56,9 @@ tolerance = 1e-6
 fields = ["margin", "region"]
 )");
     EXPECT_EQ(job.title, "Antisymmetric");
-    EXPECT_EQ(job.problem.scene.pulse, PulseKind::antisymmetric_ricker);
+    EXPECT_EQ(job.problem.scene.pulse()->kind, PulseKind::antisymmetric_ricker);
     EXPECT_EQ(job.problem.scene.theory, Theory::linear);
-    EXPECT_EQ(job.problem.scene.shape.window, 1.5);
+    EXPECT_EQ(job.problem.scene.pulse()->shape.window, 1.5);
     const auto frequency = std::get<AxisRange>(axis(job, "frequency").definition());
     EXPECT_EQ(frequency.first, 0.5);
     EXPECT_EQ(frequency.last, 8);
@@ -185,7 +185,7 @@ slenderness = { values = [0.2] }
 )");
     EXPECT_EQ(job.title, "");
     EXPECT_EQ(job.problem.scene.theory, Theory::nonlinear);
-    EXPECT_EQ(job.problem.scene.shape.window, 1);
+    EXPECT_EQ(job.problem.scene.pulse()->shape.window, 1);
     EXPECT_FALSE(gives(job, "restitution_of_maximum"));
     EXPECT_EQ(job.problem.numerics.method, Method::rk45);
     EXPECT_EQ(job.problem.numerics.tolerance, 1e-9);
@@ -285,11 +285,10 @@ TEST(ReadingAJob, RefusesAJobWithoutAPlane)
 TEST(CutByWindow, IsTheValueOfThePulseAtTheEndsOfItsWindow)
 {
     // x = pi: (1 - 2 pi^2) exp(-pi^2) = -9.7e-4; z = 2 pi / sqrt 3: 3.7e-2.
-    EXPECT_NEAR(cut_by_window({.pulse = PulseKind::symmetric_ricker}), 9.69e-4, 1e-6);
-    EXPECT_NEAR(cut_by_window({.pulse = PulseKind::antisymmetric_ricker}), 3.71e-2, 1e-4);
-    EXPECT_LT(cut_by_window({.pulse = PulseKind::antisymmetric_ricker, .shape = {.window = 2}}),
-              1e-8);
-    EXPECT_EQ(cut_by_window({.pulse = PulseKind::rectangular}), 0);
+    EXPECT_NEAR(cut_by_window({PulseKind::symmetric_ricker}), 9.69e-4, 1e-6);
+    EXPECT_NEAR(cut_by_window({PulseKind::antisymmetric_ricker}), 3.71e-2, 1e-4);
+    EXPECT_LT(cut_by_window({PulseKind::antisymmetric_ricker, {.window = 2}}), 1e-8);
+    EXPECT_EQ(cut_by_window({PulseKind::rectangular}), 0);
 }
 
 } // namespace

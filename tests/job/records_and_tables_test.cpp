@@ -87,7 +87,7 @@ using Names = std::vector<std::string>;
 std::vector<std::string> names_of(const Job& job)
 {
     std::vector<std::string> names;
-    for (const Motion& motion : job.motions) {
+    for (const RecordedMotion& motion : job.motions) {
         names.push_back(motion.name);
     }
     return names;
@@ -236,10 +236,10 @@ TEST_F(Motions, HaveASecondComponentOfTheSameFileOrOfAnother)
     const std::string direction = "scale = 1\ndirection = { values = [0, 30] }";
     const auto second = [&](const std::string& scene) {
         const Job job = plane(scene, direction);
-        return job.problem.scene.records[0]->second();
+        return job.problem.scene.records()[0]->second();
     };
     const std::vector<double> east =
-        plane("record = 'a.V2A'\ncomponent = 2").problem.scene.records[0]->horizontal();
+        plane("record = 'a.V2A'\ncomponent = 2").problem.scene.records()[0]->horizontal();
     EXPECT_EQ(second("record = 'a.V2A'\nsecond_component = 2\nvertical = 'Up'"), east);
     EXPECT_EQ(second("record = 'a.V2A'\nsecond_component = 'E'"), east);
     EXPECT_EQ(second("record = ['a.V2A', 'a.V2A']\ncomponent = [1, 3]\nsecond_component = 2"),
@@ -407,7 +407,7 @@ TEST_F(Columns, WithTheNameOfAQuantityInOtherLettersAreRefused)
         std::string name(quantity.name);
         name[0] = char(std::toupper(static_cast<unsigned char>(name[0])));
         const std::string message = refusal(exit_code::job, [&] { table(with_column(name)); });
-        if (quantity.applies_under(false)) {
+        if (quantity.applies_under(Pulse::traits)) {
             EXPECT_THAT(message, HasSubstr("t.csv:1:4: " + name + " is not the quantity " +
                                            std::string(quantity.name)));
         } else {
@@ -476,7 +476,7 @@ TEST_F(Columns, OfABlockWithoutAPlaneAreRefusedAtTheTable)
 
 TEST_F(Columns, OfTheMotionAreIgnoredUnderAPulse)
 {
-    EXPECT_FALSE(table(with_column("motion", "a.AT2")).problem.scene.is_recorded());
+    EXPECT_FALSE(table(with_column("motion", "a.AT2")).problem.scene.is_under(Under::record));
 }
 
 TEST_F(Motions, AreADimensionIfTheyAreAListOrAPattern)

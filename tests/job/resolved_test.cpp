@@ -72,10 +72,12 @@ TEST_P(ResolvingAgain, ChangesNothing)
     const Job twice = job_of(once.resolved);
     EXPECT_EQ(once.resolved, twice.resolved);
     EXPECT_EQ(once.title, twice.title);
-    EXPECT_EQ(once.problem.scene.pulse, twice.problem.scene.pulse);
+    EXPECT_EQ(once.problem.scene.pulse()->kind, twice.problem.scene.pulse()->kind);
     EXPECT_EQ(once.problem.scene.theory, twice.problem.scene.theory);
     for (const auto& [name, number] : shape_numbers) {
-        EXPECT_EQ(once.problem.scene.shape.*number, twice.problem.scene.shape.*number) << name;
+        EXPECT_EQ(once.problem.scene.pulse()->shape.*number,
+                  twice.problem.scene.pulse()->shape.*number)
+            << name;
     }
     expect_equal(once.problem.grid, twice.problem.grid);
     EXPECT_EQ(once.problem.numerics.tolerance, twice.problem.numerics.tolerance);

@@ -380,7 +380,7 @@ TEST(Direction, OfTheMirrorImageMirrorsTheMotion)
 TEST(Coordinates, OfTwoComponentsHaveThePeakOfEveryDirection)
 {
     Scene scene;
-    scene.records = {record_of_two_components(0.5, 0.01), record_of_two_components(1, 0.02)};
+    scene.motion = Suite{{record_of_two_components(0.5, 0.01), record_of_two_components(1, 0.02)}};
     const Grid grid = grid_of(scene, {number("slenderness", 0.2), number("size", 1.0),
                                       number("restitution", 0.8), axis("motion", {1, 2}),
                                       axis("direction", {0, 30, 90, 210}), axis("scale", {1, 3})});

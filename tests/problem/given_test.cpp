@@ -231,13 +231,13 @@ TEST(GridOf, RefusesAFactorOnARecordThatOverflows)
 {
     const UntrappedFloatingPoint overflows;
     Scene scene;
-    scene.records = {short_record(1e-5, 0.01)};
+    scene.motion = Suite{{short_record(1e-5, 0.01)}};
     const Quantities others = block + loss + Quantities{number("motion", 1)};
     expect_refused(scene, others + Quantities{axis("pga", {0.5, 1e307})}, "pga",
                    "= 1e+307: scale = inf is outside [0, inf). The factor on a record");
     expect_refused(scene, others + Quantities{column("pga", {0.5, 1e307, 1e308})}, "pga",
                    "= 1e+307: scale = inf", 1);
-    scene.records = {short_record(1, 0.01, 1e5)};
+    scene.motion = Suite{{short_record(1, 0.01, 1e5)}};
     expect_refused(scene, others + Quantities{column("scale", {1e-7, 1e305})}, "scale",
                    "= 1e+305: vertical_pga = inf", 1);
 }
@@ -245,7 +245,7 @@ TEST(GridOf, RefusesAFactorOnARecordThatOverflows)
 TEST(GridOf, RefusesStrengthsAtAllOfWhichTheVerticalMotionCancelsGravity)
 {
     Scene scene;
-    scene.records = {short_record(1, 0.01, -0.5), short_record(1, 0.01, -0.25)};
+    scene.motion = Suite{{short_record(1, 0.01, -0.5), short_record(1, 0.01, -0.25)}};
     const Quantities others = block + loss;
     const auto given = [&](const Given& motion, AxisList scales) {
         return others + Quantities{motion, axis("scale", std::move(scales))};
@@ -263,13 +263,13 @@ TEST(GridOf, RefusesStrengthsAtAllOfWhichTheVerticalMotionCancelsGravity)
 TEST(GridOf, TakesAnyDirectionOfTwoComponentsAndOnlyTwoOfOne)
 {
     Scene scene;
-    scene.records = {short_record(1, 0.01)};
+    scene.motion = Suite{{short_record(1, 0.01)}};
     const Quantities others = block + loss + Quantities{number("motion", 1)};
     const Quantities scale{number("scale", 1)};
     grid_of(scene, others + scale + Quantities{axis("direction", {0, 180})});
     expect_refused(scene, others + scale + Quantities{axis("direction", {0, 30, 180})}, "direction",
                    "= 30 needs two horizontal components");
-    scene.records = {record_of_two_components(0.5, 0.01)};
+    scene.motion = Suite{{record_of_two_components(0.5, 0.01)}};
     grid_of(scene, others + scale + Quantities{axis("direction", AxisRange{0, 345, 24})});
     expect_refused(scene, others + scale, "direction", "is missing");
     expect_refused(scene, others + Quantities{number("pga", 1), number("direction", 30)}, "pga",
@@ -379,18 +379,18 @@ TEST(CornersOf, AGridAreTheEndsOfItsAxesAndAllRowsOfATable)
 TEST(Quantity, AppliesToPulsesOrToRecordsOrToBoth)
 {
     for (const char* name : {"width", "size", "restitution", "pga"}) {
-        EXPECT_TRUE(quantity(name).applies_under(false)) << name;
-        EXPECT_TRUE(quantity(name).applies_under(true)) << name;
+        EXPECT_TRUE(quantity(name).applies_under(Pulse::traits)) << name;
+        EXPECT_TRUE(quantity(name).applies_under(Suite::traits)) << name;
     }
     for (const char* name : {"amplitude", "frequency", "pulse_period", "pulse_frequency"}) {
-        EXPECT_TRUE(quantity(name).applies_under(false)) << name;
-        EXPECT_FALSE(quantity(name).applies_under(true)) << name;
+        EXPECT_TRUE(quantity(name).applies_under(Pulse::traits)) << name;
+        EXPECT_FALSE(quantity(name).applies_under(Suite::traits)) << name;
     }
     for (const char* name : {"motion", "scale"}) {
-        EXPECT_FALSE(quantity(name).applies_under(false)) << name;
-        EXPECT_TRUE(quantity(name).applies_under(true)) << name;
+        EXPECT_FALSE(quantity(name).applies_under(Pulse::traits)) << name;
+        EXPECT_TRUE(quantity(name).applies_under(Suite::traits)) << name;
     }
-    EXPECT_FALSE(quantity("gravity").applies_under(false));
+    EXPECT_FALSE(quantity("gravity").applies_under(Pulse::traits));
 }
 
 } // namespace

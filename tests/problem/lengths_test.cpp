@@ -172,7 +172,7 @@ TEST(LengthsInMetres, AreExpectedInEveryRowOfATableAndOnEveryAxis)
 TEST(LengthsInMetres, AreExpectedUnderRecords)
 {
     Scene scene;
-    scene.records = {short_record(1, 0.01)};
+    scene.motion = Suite{{short_record(1, 0.01)}};
     const Quantities under_record{number("motion", 1), number("scale", 1),
                                   number("restitution", 0.5)};
     EXPECT_THAT(refusal_of(given({{"width", 42}, {"height", 155}}), scene, under_record),

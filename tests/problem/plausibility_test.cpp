@@ -44,7 +44,7 @@ std::string found_in(const Columns& columns, const Scene& scene = {})
     for (const auto& [name, values] : columns) {
         given.push_back(column(name, values));
     }
-    if (scene.is_recorded()) {
+    if (scene.is_under(Under::record)) {
         given.push_back(number("motion", 1));
     }
     return implausible_values(scene, grid_of(scene, given));
@@ -111,9 +111,9 @@ TEST(Plausibility, OfSmallObjectsInCentimetresNamesTheirSize)
 TEST(Plausibility, OfBlocksWithTwoSidesAsksForAFullCircleOfDirections)
 {
     Scene scene;
-    scene.records.push_back(
-        std::make_shared<const Accelerogram>(std::vector<double>{0, 0.3, 0}, std::vector<double>(),
-                                             0.1, std::vector<double>{0, 0.2, -0.1}));
+    scene.motion = Suite{
+        {std::make_shared<const Accelerogram>(std::vector<double>{0, 0.3, 0}, std::vector<double>(),
+                                              0.1, std::vector<double>{0, 0.2, -0.1})}};
     const auto found = [&](double plus, double minus, const std::vector<double>& directions) {
         return implausible_values(
             scene, grid_of(scene, {number("slenderness_plus", plus),
@@ -150,7 +150,7 @@ TEST(Plausibility, OfRecordsFindsValuesThatNoOtherComesNear)
     const auto found = [&](const std::vector<double>& horizontal,
                            const std::vector<double>& upwards = {}) {
         Scene scene;
-        scene.records.push_back(std::make_shared<const Accelerogram>(horizontal, upwards, 0.01));
+        scene.motion = Suite{{std::make_shared<const Accelerogram>(horizontal, upwards, 0.01)}};
         return found_in(columns, scene);
     };
     std::uniform_real_distribution<double> uniform(-0.3, 0.3);
@@ -189,8 +189,8 @@ TEST(Plausibility, OfRecordsJudgesPeakAndTimeStep)
     columns["scale"] = {0.001};
     const auto found = [&](double peak, double time_step) {
         Scene scene;
-        scene.records.push_back(std::make_shared<const Accelerogram>(
-            std::vector<double>{0, peak, 0}, std::vector<double>(), time_step));
+        scene.motion = Suite{{std::make_shared<const Accelerogram>(
+            std::vector<double>{0, peak, 0}, std::vector<double>(), time_step)}};
         return found_in(columns, scene);
     };
     EXPECT_THAT(found(0.5, 0.01), IsEmpty());
@@ -214,8 +214,8 @@ TEST(Plausibility, OfRecordsJudgesEachComponent)
                 return std::vector<double>{0, -peak, peak / 3};
             };
             Scene scene;
-            scene.records.push_back(std::make_shared<const Accelerogram>(
-                samples(uniform(generator)), samples(vertical), 0.01, samples(second)));
+            scene.motion = Suite{{std::make_shared<const Accelerogram>(
+                samples(uniform(generator)), samples(vertical), 0.01, samples(second))}};
             return found_in(columns, scene);
         };
         const double g = uniform(generator);
@@ -237,9 +237,9 @@ TEST(Plausibility, OfDirectionsExpectsDegrees)
                               {"scale", all(0.001)},
                               {"direction", directions}};
         Scene scene;
-        scene.records.push_back(std::make_shared<const Accelerogram>(
+        scene.motion = Suite{{std::make_shared<const Accelerogram>(
             std::vector<double>{0, 0.5, 0}, std::vector<double>(), 0.01,
-            std::vector<double>{0, 0.4, 0}));
+            std::vector<double>{0, 0.4, 0})}};
         return found_in(columns, scene);
     };
     for (const std::vector<double>& degrees : {std::vector<double>{0}, {0, 90}, {180, 1}, {345}}) {
@@ -366,7 +366,8 @@ TEST(Plausibility, OfAVerticalRecordThatContainsGravityFindsIt)
             for (double& value : measured) {
                 value += offset;
             }
-            scene.records = {std::make_shared<const Accelerogram>(horizontal, measured, 0.01)};
+            scene.motion =
+                Suite{{std::make_shared<const Accelerogram>(horizontal, measured, 0.01)}};
             return found_in(
                 {{"width", {0.4}}, {"height", {1.8}}, {"scale", {0.5}}, {"restitution", {0.7}}},
                 scene);

@@ -12,7 +12,7 @@ inline std::vector<Scene> every_scene()
     std::vector<Scene> scenes;
     for (std::size_t pulse = 0; pulse < names_of<PulseKind>.size(); ++pulse) {
         for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
-            scenes.push_back({PulseKind(pulse), theory});
+            scenes.push_back({.motion = Pulse{PulseKind(pulse)}, .theory = theory});
         }
     }
     return scenes;

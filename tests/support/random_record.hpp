@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <random>
 #include <utility>
 
@@ -50,8 +49,8 @@ class NormalNumbers {
 public:
     double operator()(std::mt19937_64& generator)
     {
-        if (saved_) {
-            return *std::exchange(saved_, std::nullopt);
+        if (std::exchange(has_saved_, false)) {
+            return saved_;
         }
         std::uniform_real_distribution<double> uniform(0, 1);
         double x = 0;
@@ -64,11 +63,13 @@ public:
         } while (square > 1 || square == 0);
         const double factor = std::sqrt(-2 * std::log(square) / square);
         saved_ = x * factor;
+        has_saved_ = true;
         return y * factor;
     }
 
 private:
-    std::optional<double> saved_;
+    double saved_ = 0;
+    bool has_saved_ = false;
 };
 
 /// Noise whose neighbouring samples are similar, most of it within -1 and 1.

@@ -33,7 +33,8 @@ inline std::shared_ptr<const Accelerogram> record_of_two_components(double peak,
 inline Scene scene_of_three_records()
 {
     Scene scene;
-    scene.records = {short_record(0.5, 0.01), short_record(0.25, 0.02), short_record(2, 0.005)};
+    scene.motion =
+        Suite{{short_record(0.5, 0.01), short_record(0.25, 0.02), short_record(2, 0.005)}};
     return scene;
 }
 

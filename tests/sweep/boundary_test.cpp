@@ -53,11 +53,11 @@ TEST(Boundary, OfThePapersBlockAgreesWithPublishedValues)
     expect_flips_at(
         boundary_on(one_sine, line_of(paper_alpha, 0.7 * paper_r_max, 3), scan, widest_kernel()),
         {1.458920, 3.276686, 3.647522}, 6e-7);
-    expect_flips_at(boundary_on({PulseKind::one_cosine}, line_of(paper_alpha, paper_r_max, 3), scan,
-                                widest_kernel()),
+    expect_flips_at(boundary_on({Pulse{PulseKind::one_cosine}},
+                                line_of(paper_alpha, paper_r_max, 3), scan, widest_kernel()),
                     {1.801257, 6.848654, 11.139644}, 6e-7);
-    expect_flips_at(boundary_on({PulseKind::one_sine, Theory::linear}, line_of(0.25, 0.81, 5), scan,
-                                widest_kernel()),
+    expect_flips_at(boundary_on({Pulse{PulseKind::one_sine}, Theory::linear},
+                                line_of(0.25, 0.81, 5), scan, widest_kernel()),
                     {3.018600, 6.318071, 7.168129}, 6e-7);
 }
 
@@ -67,8 +67,8 @@ TEST(Boundary, OfTheLinearTheoryUnderARectangularPulseIsAClosedForm)
     // that is not overturned by the pulse is never lifted again.
     for (const double frequency : {0.7, 2.0, 5.0}) {
         const Boundary boundary =
-            boundary_on({PulseKind::rectangular, Theory::linear}, line_of(0.2, 0.8, frequency),
-                        evenly(0.9, 8, 30), widest_kernel());
+            boundary_on({Pulse{PulseKind::rectangular}, Theory::linear},
+                        line_of(0.2, 0.8, frequency), evenly(0.9, 8, 30), widest_kernel());
         expect_flips_at(boundary, {-1 / std::expm1(-pi<double>() / frequency)}, 1e-11);
         EXPECT_EQ(boundary.flips[0].region_below, Region::S);
     }
@@ -89,7 +89,7 @@ TEST(Boundary, OfTheLinearTheoryUnderAHalfSineIsThatOfMakrisAndRoussos)
             (excess((low + high) / 2) < 0 ? low : high) = (low + high) / 2;
         }
         const Boundary boundary =
-            boundary_on({PulseKind::half_sine, Theory::linear}, line_of(0.2, 0.8, frequency),
+            boundary_on({Pulse{PulseKind::half_sine}, Theory::linear}, line_of(0.2, 0.8, frequency),
                         evenly(0.9, 12, 40), widest_kernel());
         ASSERT_FALSE(boundary.flips.empty());
         EXPECT_NEAR(boundary.flips[0].amplitude(), 1 / std::sin(low), 1e-11 / std::sin(low));
@@ -198,7 +198,7 @@ TEST(Boundary, MissesStripsOfSlowPulsesOnlyIfTheyAreNarrow)
     // of sines of two periods, strips of up to 4e-3 are missed, see boundaries.md.
     std::vector<Scene> scenes = every_scene();
     std::erase_if(scenes, [](const Scene& scene) {
-        return traits_of(scene.pulse).form == PulseForm::modulated;
+        return traits_of(scene.pulse()->kind).form == PulseForm::modulated;
     });
     const Comparison comparison = compare_scans(scenes, 0.4, 0.7);
     EXPECT_GT(comparison.flips, 300u);
@@ -212,7 +212,7 @@ TEST(Boundary, StopsAtTheRequestedNumberOfFlips)
 {
     const BoundaryLine line = line_of(paper_alpha, paper_r_max, 0.6);
     const std::vector<double> scan = evenly(0.5, 12.5, 121);
-    const Scene scene{PulseKind::one_cosine};
+    const Scene scene{Pulse{PulseKind::one_cosine}};
     const Boundary all = boundary_on(scene, line, scan, widest_kernel());
     ASSERT_GT(all.flips.size(), 5u);
     EXPECT_FALSE(all.has_more);
@@ -301,7 +301,7 @@ RecordLine random_record_line(std::mt19937_64& generator, Directions directions)
 {
     const RecordPoint point = random_record_point(generator, 300, directions);
     Scene scene;
-    scene.records = {std::make_shared<const Accelerogram>(point.record)};
+    scene.motion = Suite{{std::make_shared<const Accelerogram>(point.record)}};
     const double threshold = Equations<Theory::nonlinear>::uplift_acceleration(point.block);
     return {scene,
             {.point = {point.block, 1, point.frequency}},
@@ -358,7 +358,7 @@ TEST(Boundary, IsDecidedUpToWhereTheVerticalMotionCancelsGravity)
     std::mt19937_64 generator(65);
     for (int i = 0; i < 6; ++i) {
         const auto [scene, line, lifting] = random_record_line(generator, Directions::both);
-        const double free_fall = scene.records[0]->free_fall_scale();
+        const double free_fall = scene.records()[0]->free_fall_scale();
         FlipSearch search = flip_search(scene);
         search.finest_step = 0.01;
         const Boundary boundary =
@@ -384,7 +384,7 @@ TEST(Boundary, HasAtLeastTheSameFlipsWithMoreAmplitudes)
     for (const double frequency : {0.6, 1.3, 3.0}) {
         std::vector<double> scan = evenly(0.5, 12.5, 121);
         const BoundaryLine line = line_of(paper_alpha, paper_r_max, frequency);
-        const Scene scene{PulseKind::one_cosine};
+        const Scene scene{Pulse{PulseKind::one_cosine}};
         const std::size_t flips = boundary_on(scene, line, scan, widest_kernel()).flips.size();
         scan.insert(scan.begin() + 1, 0.500001); // one step that is much finer than the others
         EXPECT_EQ(boundary_on(scene, line, scan, widest_kernel()).flips.size(), flips);
@@ -434,7 +434,7 @@ TEST(Boundary, OfLimitedEffortTellsWhereFlipsMayBeMissed)
 TEST(Boundary, WithoutFiftyDigitsIsUndecidedWhereTheyAreNeeded)
 {
     // A block without loss that bounces under many cycles, just above the uplift threshold.
-    const Scene scene{.pulse = PulseKind::sine, .shape = {.cycles = 3}};
+    const Scene scene{.motion = Pulse{PulseKind::sine, {.cycles = 3}}};
     const BoundaryLine line = line_of(0.165, 1.0, 7.37);
     FlipSearch limited = default_search;
     limited.most_amplitudes = 100;

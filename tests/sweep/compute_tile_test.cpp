@@ -46,8 +46,9 @@ const std::vector<Numerics> all_numerics{{Method::rk45, 1e-9},
 
 std::string name_of(const Scene& scene, const Numerics& numerics)
 {
-    return std::string(name_of(scene.pulse)) + ", " + std::string(name_of(scene.theory)) + ", " +
-           std::string(name_of(numerics.method)) + " at " + std::to_string(numerics.tolerance);
+    return std::string(name_of(scene.pulse()->kind)) + ", " + std::string(name_of(scene.theory)) +
+           ", " + std::string(name_of(numerics.method)) + " at " +
+           std::to_string(numerics.tolerance);
 }
 
 /// The place of point i of a tile among all points of a shape.
@@ -234,7 +235,7 @@ TEST(ComputeTile, MethodsGiveTheSameRegions)
         // Errors of 1e-8 shift a boundary across one in a million points; there are 4292 here. A
         // method that missed an impact would change hundreds.
         EXPECT_EQ(regions({Method::taylor, 1e-9}), regions({Method::rk45, 1e-9}))
-            << name_of(scene.pulse) << ", " << name_of(scene.theory);
+            << name_of(scene.pulse()->kind) << ", " << name_of(scene.theory);
     }
 }
 

@@ -84,11 +84,11 @@ TEST(Fill, EveryPointHasTheRegionOfADirectSpectrum)
             const Problem problem = filled_problem(scene, numerics, grid);
             const FilledTile tile = filled(problem);
             EXPECT_EQ(tile.region, regions_of(integrated(problem)))
-                << name_of(scene.pulse) << ", " << name_of(scene.theory) << ", "
+                << name_of(scene.pulse()->kind) << ", " << name_of(scene.theory) << ", "
                 << name_of(numerics.method);
             // If nothing were filled, this test would compare nothing.
             EXPECT_GT(count(tile.evaluated, point_origin::filled), 128 * 128 / 3)
-                << name_of(scene.pulse);
+                << name_of(scene.pulse()->kind);
         }
     }
 }
@@ -102,12 +102,12 @@ TEST(Fill, EveryPointHasTheRegionOfADirectSpectrumIfTheSidesOfTheBlockDiffer)
                 const Problem problem = filled_problem(scene, {}, leaning_grid(direction), fields);
                 const FilledTile tile = filled(problem);
                 const TileFields direct = integrated(problem);
-                EXPECT_EQ(tile.region, regions_of(direct)) << name_of(scene.pulse);
+                EXPECT_EQ(tile.region, regions_of(direct)) << name_of(scene.pulse()->kind);
                 if (fields == region_and_impacts) {
                     EXPECT_EQ(tile.impacts, std::get<std::vector<std::uint16_t>>(direct.values[1]));
                 }
                 EXPECT_GT(count(tile.evaluated, point_origin::filled), 128 * 128 / 5)
-                    << name_of(scene.pulse);
+                    << name_of(scene.pulse()->kind);
                 after_two += count(tile.region, std::uint8_t(Region::U2_plus));
             }
         }
@@ -122,11 +122,11 @@ TEST(Fill, EveryPointHasTheImpactsOfADirectSpectrum)
         const Problem problem = filled_problem(scene, {}, grid, region_and_impacts);
         const FilledTile tile = filled(problem);
         const TileFields direct = integrated(problem);
-        EXPECT_EQ(tile.region, regions_of(direct)) << name_of(scene.pulse);
+        EXPECT_EQ(tile.region, regions_of(direct)) << name_of(scene.pulse()->kind);
         EXPECT_EQ(tile.impacts, std::get<std::vector<std::uint16_t>>(direct.values[1]))
-            << name_of(scene.pulse);
+            << name_of(scene.pulse()->kind);
         EXPECT_GT(count(tile.evaluated, point_origin::filled), 128 * 128 / 5)
-            << name_of(scene.pulse);
+            << name_of(scene.pulse()->kind);
     }
 }
 
@@ -178,7 +178,7 @@ TEST(Fill, EverySpectrumOfAGridIsFilledByItself)
 /// Many low bounces precede a large motion: a strip of one row passes between nodes that agree.
 Problem hard_problem()
 {
-    return filled_problem({.pulse = PulseKind::cosine, .shape = {.cycles = 2}},
+    return filled_problem({.motion = Pulse{PulseKind::cosine, {.cycles = 2}}},
                           {.method = Method::taylor},
                           grid_of_block(0.1, 1, {.first = 1.01, .last = 1.50306, .count = 128},
                                         {.first = 1.053725, .last = 2, .count = 128}));

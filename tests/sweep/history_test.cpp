@@ -54,7 +54,7 @@ TEST(History, ThatDoublesCannotFollowHasTheSettledRegionAndUnknownTimes)
     while (searched < 20) {
         const RecordPoint drawn = random_record_point(generator, 150, Directions::horizontal);
         Scene scene;
-        scene.records = {std::make_shared<const Accelerogram>(drawn.record)};
+        scene.motion = Suite{{std::make_shared<const Accelerogram>(drawn.record)}};
         const auto region_at = [&](double scale, const Numerics& numerics) {
             const PointRun run(scene, {{drawn.block, scale, drawn.frequency}}, widest_kernel());
             return outcomes_of(run, numerics, {.region = true})[0].region;
@@ -90,7 +90,7 @@ TEST(History, ThatDoublesCanFollowHasTheRegionOfTheSpectrum)
     for (int i = 0; i < 200; ++i) {
         const RecordPoint drawn = random_record_point(generator, 150, Directions::horizontal);
         Scene scene;
-        scene.records = {std::make_shared<const Accelerogram>(drawn.record)};
+        scene.motion = Suite{{std::make_shared<const Accelerogram>(drawn.record)}};
         const Point point{drawn.block, drawn.scale, drawn.frequency};
         const PointRun run(scene, {point}, widest_kernel());
         const History history = history_of(scene, point);
@@ -149,10 +149,10 @@ TEST(History, HasTheFrictionOfTheSpectrum)
         if (i % 2 == 0) {
             const RecordPoint drawn = random_record_point(
                 generator, 100, i % 4 == 0 ? Directions::horizontal : Directions::both);
-            scene.records = {std::make_shared<const Accelerogram>(drawn.record)};
+            scene.motion = Suite{{std::make_shared<const Accelerogram>(drawn.record)}};
             point = {drawn.block, drawn.scale, drawn.frequency};
         } else {
-            scene.pulse = pulses[std::size_t(i / 2) % pulses.size()];
+            scene.motion = Pulse{pulses[std::size_t(i / 2) % pulses.size()]};
             const PulsePoint<double> drawn = random_point(generator);
             point = {drawn.block(), drawn.amplitude, drawn.frequency};
         }
@@ -181,7 +181,7 @@ TEST(History, NeedsNoFrictionAtRestUnderAJumpThatLiftsTheBlock)
 {
     const Point point{.block = {0.2, 0.9}, .amplitude = 4, .frequency = 3, .gyration = 0.577};
     for (const PulseKind pulse : {PulseKind::rectangular, PulseKind::one_cosine}) {
-        const History history = history_of({pulse, Theory::nonlinear, 1}, point);
+        const History history = history_of({Pulse{pulse}}, point);
         const HistoryEvent& uplift = history.events.front();
         EXPECT_EQ(uplift.kind, EventKind::uplift);
         EXPECT_EQ(uplift.before.time, 0);
@@ -235,7 +235,8 @@ TEST(History, ObeysTheEquationOfMotionBetweenEvents)
         const double size = 1 + point.amplitude;
         const double tolerance =
             std::pow(h, 5) / 90 * 100 * size * std::pow(1 + point.frequency, 4) + 1e-14;
-        const PulseMotion<double> motion = pulse_motion<double>(scene.pulse, scene.shape);
+        const Pulse& pulse = *scene.pulse();
+        const PulseMotion<double> motion = pulse_motion<double>(pulse.kind, pulse.shape);
         const double kink = (motion.kink - motion.begin) / point.frequency; // 0 if there is none
         int compared = 0;
         for (std::size_t i = 2; i < history.samples.size(); ++i) {
@@ -338,7 +339,7 @@ TEST(History, ContainsRestAndAnotherUplift)
     point.frequency = 0.05;
     point.amplitude = 1.00001;
     point.block.restitution = 0.3;
-    const History history = history_of({PulseKind::one_sine, Theory::nonlinear, 1}, point);
+    const History history = history_of({Pulse{PulseKind::one_sine}}, point);
     EXPECT_EQ(count(history, EventKind::uplift, history.end_of_pulse), 2);
     EXPECT_EQ(count(history, EventKind::rest, history.end_of_pulse), 2);
     EXPECT_EQ(history.events.back().kind, EventKind::end_of_pulse);

@@ -88,7 +88,7 @@ TEST(ResolvedVerdicts, AreThoseOfTheFirstPassWhereItIsCertain)
 TEST(ResolvedVerdicts, HavePeaksThatAreAccurateAfterManyImpacts)
 {
     // After many impacts, a tolerance that settles the verdict may be wrong by half of the peak.
-    const Scene scene{.pulse = PulseKind::cosine, .shape = {.cycles = 4}};
+    const Scene scene{.motion = Pulse{PulseKind::cosine, {.cycles = 4}}};
     const Problem accurate{.scene = scene,
                            .grid = grid_of(scene, {axis("slenderness", {0.1, 0.18, 0.3}),
                                                    axis("restitution_of_maximum", {0.6, 0.9}),
@@ -134,7 +134,7 @@ TEST(ResolvedVerdicts, AreThoseOfLimitedNumbersOfPointsUnderARecordIn50Digits)
         point = random_record_point(generator, 500, Directions::horizontal);
     }
     Scene scene;
-    scene.records = {std::make_shared<const Accelerogram>(point.record)};
+    scene.motion = Suite{{std::make_shared<const Accelerogram>(point.record)}};
     const Point block{{point.block.slenderness, 1}, point.scale, point.frequency};
     const std::vector<Point> points(3, block);
     const PointRun run(scene, points, widest_kernel());
@@ -155,7 +155,7 @@ TEST(PointsIn31Digits, AreTheSameOnEveryKernel)
     for (const Directions directions : {Directions::horizontal, Directions::both}) {
         const RecordPoint drawn = random_record_point(generator, 60, directions);
         Scene scene;
-        scene.records = {std::make_shared<const Accelerogram>(drawn.record)};
+        scene.motion = Suite{{std::make_shared<const Accelerogram>(drawn.record)}};
         std::vector<Point> points;
         for (int i = 0; i < 21; ++i) {
             points.push_back({{drawn.block.slenderness, 0.7 + 0.01 * i},
@@ -204,7 +204,7 @@ TEST(ResolvedVerdicts, UnderARecordComeWithThePeakOfTheMotionThatSettledThem)
     for (int i = 0; i < 2000 && sensitive < 4; ++i) {
         const RecordPoint point = random_record_point(generator, 150, Directions::horizontal);
         Scene scene;
-        scene.records = {std::make_shared<const Accelerogram>(point.record)};
+        scene.motion = Suite{{std::make_shared<const Accelerogram>(point.record)}};
         const PointRun run(scene, {{{point.block.slenderness, 1}, point.scale, point.frequency}},
                            widest_kernel());
         constexpr Outputs outputs{.error = true, .peak = true, .region = true, .margin = true};
@@ -296,7 +296,7 @@ TEST(FirstPass, IsUncertainUnlessTheMarginExceedsTheError)
 TEST(ResolvedVerdicts, AreRightWhereTheFirstPassExceedsItsBound)
 {
     // The bound of the first pass is less than half its margin, a twelfth of its error.
-    const Scene scene{PulseKind::cosine, Theory::linear, {.cycles = 3}};
+    const Scene scene{Pulse{PulseKind::cosine, {.cycles = 3}}, Theory::linear};
     const Point point{
         {0.11492817379204712, 0.78992179750511027}, 1.0894839980764797, 1.9658077169821069};
     const PointRun run(scene, {point}, widest_kernel());
@@ -314,8 +314,8 @@ TEST(ResolvedVerdicts, AreRightWhereTheFirstPassExceedsItsBound)
 TEST(ResolvedVerdicts, AreNotSoughtWhereGravityVanishes)
 {
     Scene scene;
-    scene.records = {std::make_shared<const Accelerogram>(std::vector<double>{0, 0.5, 0},
-                                                          std::vector<double>{0, -0.5, 0}, 0.1)};
+    scene.motion = Suite{{std::make_shared<const Accelerogram>(
+        std::vector<double>{0, 0.5, 0}, std::vector<double>{0, -0.5, 0}, 0.1)}};
     const PointRun run(scene, {{{0.2, 0.9}, 1, 3}, {{0.2, 0.9}, 2, 3}, {{0.2, 0.9}, 3, 3}},
                        widest_kernel());
     const Outcomes outcomes = outcomes_of(run, {Method::taylor, 1e-4, true}, {.region = true}, 100);

@@ -43,7 +43,7 @@ Swept sweep(const Scene& scene, const Numerics& numerics, int mode)
 TEST(RoundingModes, ChangeNoCertainVerdict)
 {
     for (std::size_t pulse = 0; pulse < names_of<PulseKind>.size(); ++pulse) {
-        const Scene scene{.pulse = PulseKind(pulse)};
+        const Scene scene{.motion = Pulse{PulseKind(pulse)}};
         for (const Numerics& numerics :
              {Numerics{Method::rk45, 1e-9}, Numerics{Method::taylor, 1e-6},
               Numerics{Method::taylor, 1e-9}}) {
@@ -55,7 +55,7 @@ TEST(RoundingModes, ChangeNoCertainVerdict)
                     const bool same =
                         is_safe(Region(nearest.region[i])) == is_safe(Region(other.region[i]));
                     EXPECT_TRUE(same || std::abs(nearest.margin[i]) < nearest.error[i])
-                        << name_of(scene.pulse) << " point " << i << " margin "
+                        << name_of(scene.pulse()->kind) << " point " << i << " margin "
                         << nearest.margin[i];
                     moved += nearest.margin[i] != other.margin[i];
                 }

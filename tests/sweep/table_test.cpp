@@ -82,16 +82,16 @@ TEST(Table, HasTheValuesOfAGridPerBlock)
 Scene scene_of_two_records()
 {
     std::mt19937_64 generator(7);
-    Scene scene;
+    Suite suite;
     for (int i = 0; i < 2; ++i) {
         std::vector<double> samples = random_samples(generator, 400);
         for (double& sample : samples) {
             sample *= 2;
         }
-        scene.records.push_back(
+        suite.records.push_back(
             std::make_shared<Accelerogram>(samples, std::vector<double>(), i == 0 ? 0.01 : 0.02));
     }
-    return scene;
+    return {.motion = suite};
 }
 
 TEST(Table, HasTheValuesOfAGridPerBlockUnderEveryRecord)

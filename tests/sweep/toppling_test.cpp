@@ -44,7 +44,7 @@ TEST(VerdictRanges, UnderARecordAreSearchedInSmallStepsNextToTheAskedAcceleratio
         // Long records, under which toppling ranges are thin.
         const Accelerogram record = random_record(generator, 1000, Directions::horizontal);
         Scene scene;
-        scene.records = {std::make_shared<const Accelerogram>(record)};
+        scene.motion = Suite{{std::make_shared<const Accelerogram>(record)}};
         const BoundaryLine line{.point = {{0.3, 0.85}, 1, 1000 / 50.0}, .unit = record.peak()};
         const double asked = std::tan(0.3) * (1.5 + 0.05 * i);
         const VerdictRanges ranges =

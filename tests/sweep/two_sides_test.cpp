@@ -69,7 +69,7 @@ TEST(TwoSides, FlipAtTheAccelerationsOfAnIndependentIntegration)
 TEST(TwoSides, FlipUnderARectangularPulseAtTheClosedForm)
 {
     // Linear theory, no impact: A = alpha / (1 - exp(-p t_d)), here on the side minus.
-    const Scene scene{PulseKind::rectangular, Theory::linear};
+    const Scene scene{Pulse{PulseKind::rectangular}, Theory::linear};
     const Block<double> block = eccentric_body.block(0.8);
     const double duration = 0.2;
     const double expected = block.other.slenderness / (1 - std::exp(-block.other.pace * duration));
@@ -91,8 +91,8 @@ std::vector<Point> random_points(const Scene& scene, std::mt19937_64& generator,
         const Block<double> block = body.block(r);
         const double sign = uniform(generator) < 0.5 ? -1 : 1;
         const double strength = 1.05 + 5 * uniform(generator) * uniform(generator);
-        if (scene.is_recorded()) {
-            const Accelerogram& record = *scene.records.front();
+        if (scene.is_under(Under::record)) {
+            const Accelerogram& record = *scene.records().front();
             points.push_back(
                 {block, sign * strength * least_threshold(scene.theory, block) / record.peak(),
                  1 / (0.02 + 0.05 * uniform(generator))});
@@ -126,7 +126,8 @@ Scene scene_of_random_record(Theory theory, std::mt19937_64& generator, Directio
     for (double& v : upwards) { // gravity never vanishes
         v *= 0.1;
     }
-    scene.records = {std::make_shared<const Accelerogram>(record.horizontal(), upwards, 0.02)};
+    scene.motion =
+        Suite{{std::make_shared<const Accelerogram>(record.horizontal(), upwards, 0.02)}};
     return scene;
 }
 
@@ -144,7 +145,7 @@ std::vector<Scene> scenes(std::mt19937_64& generator)
 std::vector<Numerics> all_numerics(const Scene& scene)
 {
     std::vector<Numerics> all{{Method::taylor, 1e-6}, {Method::taylor, 1e-10}};
-    if (!scene.is_recorded()) {
+    if (!scene.is_under(Under::record)) {
         all.push_back({Method::rk45, 1e-8});
     }
     return all;
@@ -158,8 +159,8 @@ Outcomes end_under(Theory theory, const Accelerogram& record, std::size_t sample
         return std::vector<double>(values.begin(), values.begin() + std::ptrdiff_t(samples));
     };
     Scene scene{.theory = theory};
-    scene.records = {std::make_shared<const Accelerogram>(
-        first(record.horizontal()), first(record.upwards()), record.time_step())};
+    scene.motion = Suite{{std::make_shared<const Accelerogram>(
+        first(record.horizontal()), first(record.upwards()), record.time_step())}};
     Outcomes outcomes(1, all_outputs);
     PointRun(scene, {point}, widest_kernel()).run_in_31_digits(outcomes, {0});
     return outcomes;

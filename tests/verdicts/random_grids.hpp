@@ -59,12 +59,13 @@ public:
 
     RandomGrid next()
     {
-        if (has_window(scene_.pulse)) {
-            scene_.shape.window = uniform() < 0.5 ? 1 : log_between(0.1, 8);
-        } else if (traits_of(scene_.pulse).form == PulseForm::modulated) {
-            scene_.shape.cycles = std::round(uniform() * 5 + 1) / 2;
-            scene_.shape.gamma = between(1, 3);
-            scene_.shape.nu = between(-pi<double>(), pi<double>());
+        Pulse& pulse = std::get<Pulse>(scene_.motion);
+        if (has_window(pulse.kind)) {
+            pulse.shape.window = uniform() < 0.5 ? 1 : log_between(0.1, 8);
+        } else if (traits_of(pulse.kind).form == PulseForm::modulated) {
+            pulse.shape.cycles = std::round(uniform() * 5 + 1) / 2;
+            pulse.shape.gamma = between(1, 3);
+            pulse.shape.nu = between(-pi<double>(), pi<double>());
         }
         const bool real = uniform() < 0.5;
         PulsesOfBlock points = uniform() < 0.5 ? symmetric(real) : two_sides(real);

@@ -61,17 +61,17 @@ void name_point(const char* what, const Scene& scene, const Numerics& numerics, 
 {
     const Point point = Coordinates(scene, grid).points()[std::size_t(number)];
     const Block<double>& block = point.block;
-    std::printf("  %s: %s %s %s %g%s, window %.17g, cycles %g, gamma %.17g, nu %.17g, alpha %.17g, "
-                "R %.17g, p %.17g, other side: %.17g, %.17g, %.17g, r %.17g, omega %.17g, a %.17g: "
-                "margin %.6g, bound %.3g, true %.6g, off by %.3g\n",
-                what, std::string(name_of(scene.pulse)).c_str(),
-                std::string(name_of(scene.theory)).c_str(),
-                std::string(name_of(numerics.method)).c_str(), numerics.tolerance,
-                numerics.resolve ? " resolved" : "", scene.shape.window, scene.shape.cycles,
-                scene.shape.gamma, scene.shape.nu, block.slenderness, block.size, block.pace,
-                block.other.slenderness, block.other.size, block.other.pace, block.restitution,
-                point.frequency, point.amplitude, found, bound, truth[number].margin,
-                std::abs(found - truth[number].margin));
+    std::printf(
+        "  %s: %s %s %s %g%s, window %.17g, cycles %g, gamma %.17g, nu %.17g, alpha %.17g, "
+        "R %.17g, p %.17g, other side: %.17g, %.17g, %.17g, r %.17g, omega %.17g, a %.17g: "
+        "margin %.6g, bound %.3g, true %.6g, off by %.3g\n",
+        what, std::string(name_of(scene.pulse()->kind)).c_str(),
+        std::string(name_of(scene.theory)).c_str(), std::string(name_of(numerics.method)).c_str(),
+        numerics.tolerance, numerics.resolve ? " resolved" : "", scene.pulse()->shape.window,
+        scene.pulse()->shape.cycles, scene.pulse()->shape.gamma, scene.pulse()->shape.nu,
+        block.slenderness, block.size, block.pace, block.other.slenderness, block.other.size,
+        block.other.pace, block.restitution, point.frequency, point.amplitude, found, bound,
+        truth[number].margin, std::abs(found - truth[number].margin));
 }
 
 void check_bounds(BoundCheck& check, const Scene& scene, const Grid& grid, const Outcomes& truth,
@@ -209,7 +209,8 @@ bool study_scene(const Scene& kind, std::int64_t points, std::mt19937_64& genera
         std::printf(
             "%-21s %-9s %-6s resolved: %lld points, %lld wrong, %lld unresolved, %s times the "
             "time at 1e-6; without loss %lld points, %lld unresolved, %s times\n",
-            std::string(name_of(kind.pulse)).c_str(), std::string(name_of(kind.theory)).c_str(),
+            std::string(name_of(kind.pulse()->kind)).c_str(),
+            std::string(name_of(kind.theory)).c_str(),
             std::string(name_of(resolving.method)).c_str(),
             static_cast<long long>(resolving.points[0]), static_cast<long long>(resolving.wrong),
             static_cast<long long>(resolving.unresolved[0]), ratio_of_times(resolving, 0).c_str(),
@@ -232,7 +233,7 @@ bool study(std::int64_t points, std::uint64_t seed)
     bool right = true;
     for (const Theory theory : {Theory::nonlinear, Theory::linear}) {
         for (std::size_t pulse = 0; pulse < names_of<PulseKind>.size(); ++pulse) {
-            const Scene scene{.pulse = PulseKind(pulse), .theory = theory};
+            const Scene scene{.motion = Pulse{PulseKind(pulse)}, .theory = theory};
             right = study_scene(scene, points, generator, checks) && right;
         }
     }

@@ -40,7 +40,7 @@ public:
         const int samples = int(std::exp(std::log(8.0) + std::log(50.0) * uniform()));
         RecordPoint of_record = random_record_point(generator_, samples, directions);
         Scene scene{.theory = theory};
-        scene.records = {std::make_shared<const Accelerogram>(of_record.record)};
+        scene.motion = Suite{{std::make_shared<const Accelerogram>(of_record.record)}};
 
         Point point{of_record.block, 0, of_record.frequency};
         if (uniform() < 0.5) {
@@ -102,7 +102,7 @@ void name_point(const char* what, const PointRun& run, int i, double found, cons
         "  %s: %s, %lld samples, alpha %.17g, other %.17g, r %.17g, frequency %.17g, factor "
         "%.17g: margin %.6g, true %.6g, bound of that %.3g\n",
         what, std::string(name_of(run.scene().theory)).c_str(),
-        static_cast<long long>(run.scene().records[0]->samples()), point.block.slenderness,
+        static_cast<long long>(run.scene().records()[0]->samples()), point.block.slenderness,
         point.block.other.slenderness, point.block.restitution, point.frequency, point.amplitude,
         found, truth[i].margin, truth[i].error);
 }

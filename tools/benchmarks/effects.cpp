@@ -76,7 +76,8 @@ Grid grid_of_side(std::int64_t side)
 std::vector<std::uint8_t> sweep_by_hand(const Work& work, ByHand requested)
 {
     const auto& [scene, grid, numerics, product, fields] = work.problem;
-    const PulseMotion<double> motion = pulse_motion<double>(scene.pulse, scene.shape);
+    const PulseMotion<double> motion =
+        pulse_motion<double>(scene.pulse()->kind, scene.pulse()->shape);
     const std::vector<Point> points = Coordinates(scene, grid, work.tile).points();
     const ScaledPulses pulses(motion, scene.theory, points);
     const std::size_t count = points.size();
@@ -164,7 +165,7 @@ Work work_from(const std::vector<std::string>& words)
     if (by_hand) {
         work.by_hand = kind_from<ByHand>(words[4], by_hand_names);
     } else {
-        scene.pulse = kind_from<PulseKind>(words[2]);
+        scene.motion = Pulse{kind_from<PulseKind>(words[2])};
         scene.theory = kind_from<Theory>(words[3]);
         work.kernel = kind_from<Kernel>(words[4]);
         for (std::size_t i = 7; i < words.size(); ++i) {

@@ -88,7 +88,7 @@ int about(const std::string& ground)
     if (recorded) {
         const PeerProblem problem = record_problem(ground, 2);
         samples =
-            fmt::format("{:.17g}", fmt::join(problem.scene.records.front()->horizontal(), ", "));
+            fmt::format("{:.17g}", fmt::join(problem.scene.records().front()->horizontal(), ", "));
     }
     fmt::print("{{\"samples\": [{}], \"solvers\": [{}], \"kernel\": \"{}\", \"compiler\": \"{}\", "
                "\"boost\": \"{}.{}.{}\", \"gsl\": \"{}\", \"sundials\": \"{}\"}}\n",
@@ -185,7 +185,7 @@ Ends read_reference(const std::string& path, std::size_t points)
 int reference(const PeerProblem& problem, double tolerance, double check_tolerance,
               const std::string& path)
 {
-    const bool recorded = problem.scene.is_recorded();
+    const bool recorded = problem.scene.is_under(Under::record);
     const std::vector<PointEffort> efforts = efforts_of_overturn(problem, judging);
     Ends ends;
     double steps = 0;
@@ -214,7 +214,7 @@ int measure(const PeerProblem& problem, const std::string& path, std::string_vie
             double tolerance, double seconds)
 {
     const Ends truth = read_reference(path, problem.points.size());
-    for (const Solver& solver : all_solvers(problem.scene.is_recorded())) {
+    for (const Solver& solver : all_solvers(problem.scene.is_under(Under::record))) {
         if (solver.name != name) {
             continue;
         }

@@ -49,8 +49,8 @@ PeerProblem record_problem(const std::string& path, int count)
         throw Error(exit_code::job, path + ": the accelerations must be in g.");
     }
     Scene scene;
-    scene.records = {std::make_shared<const Accelerogram>(
-        std::move(component.acceleration), std::vector<double>(), component.time_step)};
+    scene.motion = Suite{{std::make_shared<const Accelerogram>(
+        std::move(component.acceleration), std::vector<double>(), component.time_step)}};
     return problem_of(scene,
                       {number("motion", 1), number("slenderness", slenderness),
                        number("restitution_of_maximum", 1),

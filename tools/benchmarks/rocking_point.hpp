@@ -194,9 +194,9 @@ template <class S, class Visitor>
 auto with_excitation(const Scene& scene, const Point& point, const Visitor& visit)
 {
     const Block<S> block = block_in<S>(point.block);
-    if (scene.is_recorded()) {
+    if (scene.is_under(Under::record)) {
         return visit(RecordExcitation<S, Directions::horizontal>{
-            .motion = record_motion<S>(*scene.records.front()),
+            .motion = record_motion<S>(*scene.records().front()),
             .acceleration = S(point.amplitude),
             .frequency = S(point.frequency),
             .to_plus = Equations<Theory::nonlinear>::uplift_acceleration(block),

@@ -57,7 +57,7 @@ int rocking_derivative(double time, N_Vector state, N_Vector derivative, void* r
 /// The right-hand side for the ground motion of a problem.
 inline auto* rocking_derivative_of(const PeerProblem& problem)
 {
-    return problem.scene.is_recorded()
+    return problem.scene.is_under(Under::record)
                ? rocking_derivative<Rocking<
                      double, RecordExcitation<double, Directions::horizontal>, Sines::library>>
                : rocking_derivative<Rocking<double, PulseExcitation<double>, Sines::library>>;

@@ -13,7 +13,7 @@
 namespace overturn {
 
 /// Where a record of the scene comes from, and what it is like.
-struct Motion {
+struct RecordedMotion {
     std::string file;      ///< path as the job spells it, or as a pattern matched it
     std::string name;      ///< unique among the motions of the job: the file, or with component
     std::string component; ///< its name in the file; may be empty
@@ -39,8 +39,8 @@ struct BlockTable {
 struct Job {
     std::string title;
     Problem problem;
-    std::vector<Motion> motions;      ///< those of scene.records, in order; empty: a pulse
-    std::optional<BlockTable> blocks; ///< of which the grid has the columns that describe points
+    std::vector<RecordedMotion> motions; ///< those of scene.records, in order; empty: a pulse
+    std::optional<BlockTable> blocks;    ///< of which the grid has the columns that describe points
 
     std::string given;                  ///< the job file, byte for byte
     std::vector<std::string> overrides; ///< the --set arguments, in order

@@ -25,11 +25,15 @@ std::optional<double> r_max_of(double slenderness);
 double uplift_threshold(Theory theory, double slenderness);
 
 /// The record of a point, in its direction.
-std::shared_ptr<const Accelerogram> directed_record(const Scene& scene, const Point& point);
+Record directed_record(const Scene& scene, const Point& point);
 
 /// The peak ground acceleration over g of a motion of the strength 1: the amplitude of a pulse that
 /// excites the block of this point, or the scale of its record.
 double pga_of_unit(const Scene& scene, const Point& point);
+
+/// The amplitude of a point from which on the vertical motion cancels gravity at some time;
+/// infinite without a vertical motion.
+double free_fall_amplitude(const Scene& scene, const Point& point);
 
 /// The largest peak ground acceleration over g at which the motion of this point does not lift its
 /// block at rest; infinite if none does.

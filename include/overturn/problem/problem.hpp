@@ -25,12 +25,6 @@ struct Problem {
 /// The name of the dimension along the flips of a boundary, which replaces the strength.
 inline constexpr std::string_view flip_dimension = "crossing";
 
-/// Maximum number of flips that are stored for a line of a boundary.
-inline std::int64_t most_flips(const Scene& scene)
-{
-    return scene.is_recorded() ? 256 : 64;
-}
-
 /// Slowest first: those of the grid; of a boundary, `crossing` instead of the strength.
 std::vector<StoredDimension> stored_dimensions(const Problem& problem);
 Shape stored_shape(const Problem& problem);

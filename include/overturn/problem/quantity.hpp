@@ -79,9 +79,9 @@ struct Quantity {
 
     /// Whether a job with this motion may give the quantity: there is no factor on a pulse, and no
     /// period of a record.
-    bool applies_under(bool is_recorded) const
+    bool applies_under(const MotionTraits& motion) const
     {
-        return is_coordinate() && scope.motion != (is_recorded ? Under::pulse : Under::record);
+        return is_coordinate() && scope.motion != motion.under_others;
     }
 
     /// The units beside a number in sentences; empty if there are none.

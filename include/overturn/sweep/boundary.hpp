@@ -45,8 +45,8 @@ struct FlipSearch {
 /// digits.
 inline FlipSearch flip_search(const Scene& scene)
 {
-    return scene.is_recorded() ? FlipSearch{.finest_step = 1e-3, .flip_width = 1e-4}
-                               : FlipSearch{.finest_step = 1e-6, .flip_width = 1e-12};
+    const MotionTraits& motion = scene.motion_traits();
+    return {.finest_step = motion.finest_step, .flip_width = motion.flip_width};
 }
 
 /// One line through a plane.
@@ -54,6 +54,10 @@ struct BoundaryLine {
     Point point;     ///< its amplitude is not used
     double unit = 1; ///< the strength at the amplitude 1; negative: the mirrored motion
 };
+
+/// The largest strength at which no vertical motion cancels gravity, but for more than the
+/// roundings of a scale; infinite without a vertical motion.
+double last_before_free_fall(const Scene& scene, const BoundaryLine& line);
 
 /// A part of a line that was searched in steps wider than the finest ones, although the margins
 /// indicate further flips.

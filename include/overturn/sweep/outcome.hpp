@@ -50,11 +50,10 @@ struct Outcome {
     State<double> end() const { return {tilt, rate, side}; }
     bool has(std::uint8_t any_of_flags) const { return (flags & any_of_flags) != 0; }
 
-    /// The value of the field `impacts`. recorded: whether the ground motion is a record, under
-    /// which a block may be lifted again after a bounce series.
-    std::uint16_t stored_impacts(bool recorded) const
+    /// The value of the field `impacts`. lifts_again: see MotionTraits.
+    std::uint16_t stored_impacts(bool lifts_again) const
     {
-        return !recorded && has(status::came_to_rest)
+        return !lifts_again && has(status::came_to_rest)
                    ? impact_count::bounce_series
                    : std::uint16_t(std::min(impacts, double(impact_count::largest)));
     }

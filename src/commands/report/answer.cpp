@@ -41,14 +41,16 @@ std::string friction_text(double friction)
                              rounded_up(friction, 2));
 }
 
-/// The numbers that complete a pulse, each with its name.
-std::string shape_text(const Scene& scene)
+/// The motion, but for its direction.
+std::string motion_text(const Job& job, const ToppleOptions& options)
 {
-    std::string text;
-    for (const auto& [name, number] : shape_numbers) {
-        if (has_number(scene.pulse, number)) {
-            text += fmt::format(", {} {}", name, scene.shape.*number);
-        }
+    const Pulse* pulse = job.problem.scene.pulse();
+    if (pulse == nullptr) {
+        return record_lines(job).front();
+    }
+    std::string text = fmt::format("{}, period {} s", name_of(pulse->kind), *options.period);
+    for (const auto& [name, value] : pulse->numbers()) {
+        text += fmt::format(", {} {}", name, value);
     }
     return text;
 }
@@ -74,10 +76,6 @@ void print_question(const std::vector<DirectedAnswer>& all, const ToppleOptions&
     const Job& job = all.front().job;
     const Scene& scene = job.problem.scene;
     print_row("block", dimensions_text(options.block) + block_line(job));
-    const std::string motion = scene.is_recorded()
-                                   ? record_lines(job).front()
-                                   : fmt::format("{}, period {} s{}", name_of(scene.pulse),
-                                                 *options.period, shape_text(scene));
     std::string direction;
     if (all.size() > 1) {
         direction = "; directions 0 and 180 degrees, its mirror image";
@@ -87,7 +85,7 @@ void print_question(const std::vector<DirectedAnswer>& all, const ToppleOptions&
     if (scene.has_two_components()) {
         direction += fmt::format(", {:.3g} g", all.front().answer.unit);
     }
-    print_row("motion", motion + direction);
+    print_row("motion", motion_text(job, options) + direction);
     print_motion_of("", scene.motion_of);
     if (scene.theory != Scene().theory) {
         print_row("theory", name_of(scene.theory));
@@ -168,7 +166,7 @@ void print_answer(const std::vector<DirectedAnswer>& all, const ToppleOptions& o
         }
         print_ranges(job.problem.scene, answer);
     }
-    if (all.front().job.problem.scene.is_recorded()) {
+    if (all.front().job.problem.scene.motion_traits().is_sensitive) {
         double undecided = 0;
         for (const auto& [job, history, answer] : all) {
             undecided = std::max(undecided, undecided_share(answer));

@@ -79,7 +79,7 @@ std::vector<std::string> lines_of_equal_records(const Job& job)
 {
     std::vector<std::string> lines;
     std::map<std::pair<std::string, double>, std::string> names;
-    for (const Motion& motion : job.motions) {
+    for (const RecordedMotion& motion : job.motions) {
         const auto [first, is_new] =
             names.emplace(std::pair(motion.checksum, motion.record->time_step()), motion.name);
         if (!is_new) {
@@ -147,12 +147,9 @@ std::vector<std::string> free_fall_lines(const Job& job)
 {
     std::vector<std::string> lines;
     const Scene& scene = job.problem.scene;
-    if (!scene.is_recorded()) {
-        return lines;
-    }
     const std::vector<Extent> scales = scales_of(scene, job.problem.grid);
     for (std::size_t i = 0; i < scales.size(); ++i) {
-        const double largest = scene.records[i]->free_fall_scale();
+        const double largest = scene.records()[i]->free_fall_scale();
         if (std::isfinite(largest) && !(scales[i].last < largest)) {
             lines.push_back(printable(fmt::format(
                 "{}: from the scale {:.6g} on, its vertical motion cancels gravity; these points "
@@ -178,18 +175,15 @@ std::string unused_columns(const Job& job)
     return printable(fmt::format("{}", fmt::join(names, ", ")));
 }
 
-void print_pulse(const Scene& scene)
+void print_pulse(const Pulse& pulse)
 {
-    print_row("pulse", name_of(scene.pulse));
-    for (const auto& [name, number] : shape_numbers) {
-        if (number == &PulseShape::window && has_window(scene.pulse)) {
-            print_row(name,
-                      fmt::format("-{0} to {0} pulse periods, truncated at {1:.2g} % of the peak",
-                                  scene.shape.window, 100 * cut_by_window(scene)));
-        } else if (has_number(scene.pulse, number)) {
-            print_row(name, fmt::format("{}{}", scene.shape.*number,
-                                        number == &PulseShape::nu ? " rad" : " pulse periods"));
-        }
+    print_row("pulse", name_of(pulse.kind));
+    for (const auto& [name, value] : pulse.numbers()) {
+        print_row(name,
+                  name == "window"
+                      ? fmt::format("-{0} to {0} pulse periods, truncated at {1:.2g} % of the peak",
+                                    value, 100 * cut_by_window(pulse))
+                      : fmt::format("{}{}", value, name == "nu" ? " rad" : " pulse periods"));
     }
 }
 
@@ -199,8 +193,8 @@ void print_scene(const Job& job)
         print_row("record", line);
     }
     const auto& [scene, grid, numerics, product, fields] = job.problem;
-    if (!scene.is_recorded()) {
-        print_pulse(scene);
+    if (const Pulse* pulse = scene.pulse()) {
+        print_pulse(*pulse);
     }
     print_motion_of("motion", scene.motion_of);
     print_row("theory", name_of(scene.theory));
@@ -291,7 +285,7 @@ std::string block_line(const Job& job)
 std::vector<std::string> record_lines(const Job& job)
 {
     std::vector<std::string> lines;
-    for (const Motion& motion : job.motions) {
+    for (const RecordedMotion& motion : job.motions) {
         const Accelerogram& record = *motion.record;
         const std::string component =
             (motion.component.empty() ? "" : fmt::format(", component {}", motion.component)) +
@@ -351,7 +345,7 @@ std::vector<std::string> warnings_on(const Job& job)
     if (std::string values = implausible_values(job.problem.scene, grid); !values.empty()) {
         warnings.push_back(std::move(values));
     }
-    for (const Motion& motion : job.motions) {
+    for (const RecordedMotion& motion : job.motions) {
         std::ranges::copy_if(motion.remarks, std::back_inserter(warnings),
                              [&](const auto& remark) { return !is_one_of(remark, warnings); });
     }

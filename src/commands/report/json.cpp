@@ -110,17 +110,14 @@ void add(Json& members, const DirectedAnswer& directed, const std::string* verdi
 Json motion_of(const Job& job, const ToppleOptions& options)
 {
     Json json;
-    if (job.motions.empty()) {
-        const Scene& scene = job.problem.scene;
-        json["pulse"] = name_of(scene.pulse);
+    if (const Pulse* pulse = job.problem.scene.pulse()) {
+        json["pulse"] = name_of(pulse->kind);
         json["period"] = *options.period;
-        for (const auto& [name, number] : shape_numbers) {
-            if (has_number(scene.pulse, number)) {
-                json[name.data()] = scene.shape.*number;
-            }
+        for (const auto& [name, value] : pulse->numbers()) {
+            json[name.data()] = value;
         }
     } else {
-        const Motion& motion = job.motions.front();
+        const RecordedMotion& motion = job.motions.front();
         json["record"] = motion.file;
         json["component"] = motion.component;
         json["second_component"] = if_named(motion.second);
@@ -149,7 +146,7 @@ Json members_of(const Job& job, const ToppleOptions& options)
         members[name] = extent_of(job, name)->first;
     }
     members["pga_max"] = options.pga_max;
-    members["narrower_ranges_exist"] = scene.is_recorded() ? Json(true) : Json();
+    members["narrower_ranges_exist"] = scene.motion_traits().is_sensitive ? Json(true) : Json();
     members["warnings"] = warnings_on(job);
     return members;
 }

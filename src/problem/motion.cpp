@@ -1,4 +1,4 @@
-#include "overturn/problem/scene.hpp"
+#include "overturn/problem/motion.hpp"
 
 #include "overturn/mechanics/pulse_motion.hpp"
 #include "overturn/problem/quantity.hpp"
@@ -20,6 +20,17 @@ std::string_view name_of(ShapeNumber number)
 
 } // namespace
 
+std::vector<std::pair<std::string_view, double>> Pulse::numbers() const
+{
+    std::vector<std::pair<std::string_view, double>> numbers;
+    for (const auto& [name, number] : shape_numbers) {
+        if (has_number(kind, number)) {
+            numbers.emplace_back(name, shape.*number);
+        }
+    }
+    return numbers;
+}
+
 std::string refusal_of(PulseKind pulse, ShapeNumber number, std::optional<double> value)
 {
     if (!has_number(pulse, number)) {
@@ -37,11 +48,11 @@ std::string refusal_of(PulseKind pulse, ShapeNumber number, std::optional<double
     return rule.allows(*value) ? "" : rule.refusal_of(*value);
 }
 
-double cut_by_window(const Scene& scene)
+double cut_by_window(const Pulse& pulse)
 {
-    const PulseMotion<double> motion = pulse_motion<double>(scene.pulse, scene.shape);
+    const PulseMotion<double> motion = pulse_motion<double>(pulse.kind, pulse.shape);
     const double cut = motion.with_formula([&](const auto& f) { return f.value(motion.end); });
-    return has_window(scene.pulse) ? std::abs(cut) : 0;
+    return has_window(pulse.kind) ? std::abs(cut) : 0;
 }
 
 } // namespace overturn
