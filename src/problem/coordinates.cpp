@@ -222,8 +222,10 @@ constexpr PointNumber of_two_sided_point[]{
     {"slenderness_minus", [](Point& point) -> double& { return point.block.other.slenderness; }},
     {"size_plus", [](Point& point) -> double& { return point.block.size; }},
     {"size_minus", [](Point& point) -> double& { return point.block.other.size; }},
-    {"frequency_parameter", [](Point& point) -> double& { return point.block.pace; }},
-    {"frequency_parameter_minus", [](Point& point) -> double& { return point.block.other.pace; }},
+    {"frequency_parameter",
+     [](Point& point) -> double& { return point.block.frequency_parameter; }},
+    {"frequency_parameter_minus",
+     [](Point& point) -> double& { return point.block.other.frequency_parameter; }},
     {"gyration_over_size", [](Point& point) -> double& { return point.gyration; }}};
 
 /// Converts blocks with equal sides to symmetric ones.
@@ -232,7 +234,7 @@ void make_symmetric(std::vector<Point>& points)
     for (Point& point : points) {
         Block<double>& block = point.block;
         if (block.is_symmetric()) {
-            point.frequency /= block.pace;
+            point.frequency /= block.frequency_parameter;
             block = {block.slenderness, block.restitution};
         }
     }

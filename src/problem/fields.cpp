@@ -37,7 +37,8 @@ double velocity(const EndOfPoint& end)
     const Block<double>& block = end.point.block;
     const double rate = end.outcome.rate;
     return end.outcome.with_sign(block.is_symmetric() ? rate
-                                                      : rate * (end.block().pace / block.pace));
+                                                      : rate * (end.block().frequency_parameter /
+                                                                block.frequency_parameter));
 }
 
 /// The largest |theta| / alpha during the ground motion and after it [1].
@@ -66,7 +67,7 @@ double fall_time(const EndOfPoint& end)
             outcome.has(outcome_flag::fell)
                 ? forced
                 : forced + time_to_lie_flat<theory, double>(outcome.end(), end.block());
-        return time * end.point.block.pace;
+        return time * end.point.block.frequency_parameter;
     });
 }
 

@@ -85,7 +85,8 @@ Node node_of(const PointRun& run, int point, const Outcome& outcome)
     const Block<double> block = run.block_at_end(point, outcome);
     const double slenderness = std::min(block.slenderness, block.other.slenderness);
     // Over p of the faster side.
-    const double frequency = run.point(point).frequency / std::max(block.pace, block.other.pace);
+    const double frequency = run.point(point).frequency /
+                             std::max(block.frequency_parameter, block.other.frequency_parameter);
     Node node{outcome.region,
               outcome.flags,
               0,

@@ -52,7 +52,8 @@ public:
         : from_(event.rocking)
     {
         const Block<double> seen = seen_from(from_.side, block);
-        const double frequency = excitation.frequency / (block.is_symmetric() ? 1 : seen.pace);
+        const double frequency =
+            excitation.frequency / (block.is_symmetric() ? 1 : seen.frequency_parameter);
         unit_ = 1 / std::max(1.0, frequency); // as in TaylorStepper
         phase_per_unit_ = frequency * unit_;
         const auto push = excitation.template series<path_order>(
@@ -109,16 +110,20 @@ public:
 
 private:
     // Times are in 1/p of the side plus; those of FreeRocking and of the frequency are in the unit
-    // of 1 / Block::pace.
+    // of 1 / Block::frequency_parameter.
     double time_at(double phase) const
     {
-        return (phase - excitation_.motion.begin) / excitation_.frequency * block_.pace;
+        return (phase - excitation_.motion.begin) / excitation_.frequency *
+               block_.frequency_parameter;
     }
     double phase_at(double time) const
     {
-        return excitation_.motion.begin + time / block_.pace * excitation_.frequency;
+        return excitation_.motion.begin + time / block_.frequency_parameter * excitation_.frequency;
     }
-    double after_path(double time) const { return end_of_path_ + time * block_.pace; }
+    double after_path(double time) const
+    {
+        return end_of_path_ + time * block_.frequency_parameter;
+    }
 
     /// Whether there is a free stage.
     bool is_free() const { return !(path_.end.fell || path_.end.is_stopped()); }
@@ -163,14 +168,14 @@ private:
     HistorySample sample(double time, const State<double>& state, const Ground& ground) const
     {
         const Block<double> seen = seen_from(state.side, block_);
-        const double pace = seen.pace / block_.pace;
+        const double ratio = seen.frequency_parameter / block_.frequency_parameter;
         const Ground push = state.side * ground;
         const double pull = Equations<theory>::acceleration(seen, state.tilt, push);
         const MovingBlock<double, Ground> moving{state.tilt, state.rate, push, push};
         return {.time = time,
                 .angle = state.side * state.tilt + 0.0, // no -0
-                .velocity = state.side * state.rate * pace + 0.0,
-                .acceleration = state.side * pull * (pace * pace),
+                .velocity = state.side * state.rate * ratio + 0.0,
+                .acceleration = state.side * pull * (ratio * ratio),
                 .q = double(conserved_q<theory>(state, seen)),
                 .ground = horizontal_of(ground),
                 .friction = friction_of(
@@ -270,7 +275,7 @@ private:
             const RockingArc<theory, double>& arc = rocking.arc();
             const auto at = [&](double time) {
                 const State<double> striking{0, -arc.impact_speed(), arc.side()};
-                const double since = (time - end_of_path_) / block_.pace;
+                const double since = (time - end_of_path_) / block_.frequency_parameter;
                 return sample(time, time == impact ? striking : rocking.at(since), 0.0);
             };
             follow(std::min(impact, fall), at);

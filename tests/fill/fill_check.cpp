@@ -81,8 +81,8 @@ void name_point(const Problem& problem, std::int64_t row, std::int64_t column, i
         std::string(name_of(scene.theory)).c_str(), std::string(name_of(numerics.method)).c_str(),
         numerics.tolerance, numerics.resolve ? " resolved" : "", scene.pulse()->shape.window,
         scene.pulse()->shape.cycles, scene.pulse()->shape.gamma, scene.pulse()->shape.nu,
-        block.slenderness, block.restitution, block.size, block.pace, block.other.slenderness,
-        block.other.size, block.other.pace,
+        block.slenderness, block.restitution, block.size, block.frequency_parameter,
+        block.other.slenderness, block.other.size, block.other.frequency_parameter,
         text_of(grid.axis_or_number(Role::rate)->values).c_str(), text_of(amplitude).c_str(),
         point.amplitude < 0 ? 180.0 : 0.0, static_cast<long long>(amplitude.size()),
         has_impacts(problem) ? ", with impacts" : "", static_cast<long long>(row),
@@ -248,7 +248,8 @@ private:
                 number("restitution", restitution),
                 number("direction", uniform() < 0.5 ? 0 : 180),
                 axis("pga", times(amplitude, uplift)),
-                axis("pulse_frequency", times(frequency, block.pace / (2 * pi<double>())))};
+                axis("pulse_frequency",
+                     times(frequency, block.frequency_parameter / (2 * pi<double>())))};
     }
 
     double uniform() { return std::uniform_real_distribution<double>(0, 1)(generator_); }

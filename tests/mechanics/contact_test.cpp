@@ -230,8 +230,8 @@ TEST(FrictionOfAnImpact, IsThatOfTheChangeOfMomentum)
         const auto here = foot_of_centre(sides.plus, block.slenderness);
         const auto there = foot_of_centre(sides.minus, block.other.slenderness);
         EXPECT_NEAR(block.size * here.height, block.other.size * there.height, 1e-14); // one base
-        const double before = 1 * block.pace;
-        const double after = block.rate_ratio() * block.other.pace;
+        const double before = 1 * block.frequency_parameter;
+        const double after = block.rate_ratio() * block.other.frequency_parameter;
         const double along = block.size * here.height * (before - after);
         const double upward =
             block.other.size * there.distance * after + block.size * here.distance * before;

@@ -149,7 +149,7 @@ TEST(TwoSides, AreSeenFromEachOther)
     EXPECT_FALSE(block.is_symmetric());
     const Block<double> back = block.turned().turned();
     EXPECT_EQ(back.slenderness, block.slenderness);
-    EXPECT_EQ(back.other.pace, block.other.pace);
+    EXPECT_EQ(back.other.frequency_parameter, block.other.frequency_parameter);
     const Block<double> mirrored = eccentric_body.mirrored().block(0.7);
     EXPECT_EQ(mirrored.slenderness, block.turned().slenderness);
     EXPECT_EQ(mirrored.rate_ratio(), block.turned().rate_ratio());
@@ -164,8 +164,10 @@ TEST(TwoSides, HaveTheEnergyRatiosOfAnEccentricBody)
     EXPECT_NEAR(r, 0.83185649, 1e-8);
     const Block<double> plus = eccentric_body.block(r);
     const Block<double> minus = plus.turned();
-    EXPECT_NEAR(plus.rate_ratio() * plus.other.pace / plus.pace, 0.92827256, 1e-8);
-    EXPECT_NEAR(minus.rate_ratio() * minus.other.pace / minus.pace, 0.89613387, 1e-8);
+    EXPECT_NEAR(plus.rate_ratio() * plus.other.frequency_parameter / plus.frequency_parameter,
+                0.92827256, 1e-8);
+    EXPECT_NEAR(minus.rate_ratio() * minus.other.frequency_parameter / minus.frequency_parameter,
+                0.89613387, 1e-8);
 }
 
 TEST(TwoSides, HaveAMarginThatIsContinuousBetweenImpacts)

@@ -276,10 +276,10 @@ void expect_block(const Block<double>& found, const Block<double>& expected)
     EXPECT_NEAR(found.slenderness, expected.slenderness, 1e-15);
     EXPECT_NEAR(found.restitution, expected.restitution, 4e-15);
     EXPECT_NEAR(found.size, expected.size, 1e-15);
-    EXPECT_NEAR(found.pace, expected.pace, 4e-15);
+    EXPECT_NEAR(found.frequency_parameter, expected.frequency_parameter, 4e-15);
     EXPECT_NEAR(found.other.slenderness, expected.other.slenderness, 1e-15);
     EXPECT_NEAR(found.other.size, expected.other.size, 1e-15);
-    EXPECT_NEAR(found.other.pace, expected.other.pace, 4e-15);
+    EXPECT_NEAR(found.other.frequency_parameter, expected.other.frequency_parameter, 4e-15);
 }
 
 TEST(TwoSides, AreThoseOfTheShapeAndTheMassOfTheBlock)
@@ -337,7 +337,7 @@ TEST(TwoSides, ThatAreEqualGiveTheSymmetricBlock)
     const Point general = point_of(level);
     EXPECT_TRUE(general.block.is_symmetric());
     EXPECT_EQ(general.block.slenderness, symmetric.block.slenderness);
-    EXPECT_EQ(general.block.pace, 1);
+    EXPECT_EQ(general.block.frequency_parameter, 1);
     // By other formulas, with a few roundings.
     EXPECT_NEAR(general.block.restitution, symmetric.block.restitution, 1e-15);
     EXPECT_NEAR(general.frequency, symmetric.frequency, 1e-14);

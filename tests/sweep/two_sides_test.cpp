@@ -72,7 +72,8 @@ TEST(TwoSides, FlipUnderARectangularPulseAtTheClosedForm)
     const Scene scene{Pulse{PulseKind::rectangular}, Theory::linear};
     const Block<double> block = eccentric_body.block(0.8);
     const double duration = 0.2;
-    const double expected = block.other.slenderness / (1 - std::exp(-block.other.pace * duration));
+    const double expected =
+        block.other.slenderness / (1 - std::exp(-block.other.frequency_parameter * duration));
     EXPECT_NEAR(expected, 0.4759132, 5e-8);
     const Boundary boundary = boundary_on(scene, line_of(scene, eccentric_body, 2 * duration, 1),
                                           accelerations(1), widest_kernel());
@@ -271,7 +272,7 @@ TEST(TwoSides, HaveEqualBitsInEveryKernelAndBesideEveryNeighbour)
         std::vector<Point> points = random_points(scene, generator, 40);
         for (std::size_t i = 0; i < points.size(); i += 3) { // symmetric neighbours
             const Block<double>& block = points[i].block;
-            points[i].frequency /= block.pace;
+            points[i].frequency /= block.frequency_parameter;
             points[i].block = {block.slenderness, block.restitution};
         }
         for (const Numerics& numerics : all_numerics(scene)) {
@@ -370,7 +371,8 @@ TEST(TwoSides, ThatAreEqualMoveLikeASymmetricBlock)
             const double amplitude = 1.1 + 3 * uniform(generator);
             const double rate = 2 * pi<double>() / (0.3 + uniform(generator));
             general.push_back({block, amplitude, rate});
-            symmetric.push_back({{block.slenderness, r}, amplitude, rate / block.pace});
+            symmetric.push_back(
+                {{block.slenderness, r}, amplitude, rate / block.frequency_parameter});
         }
         const Numerics accurate{Method::taylor, 1e-13};
         const Outcomes one =

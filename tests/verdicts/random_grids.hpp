@@ -26,7 +26,7 @@ struct PulsesOfBlock {
     AxisList frequencies; ///< over p, that of the side plus [1]
     /// Of blocks with two different sides, whose jobs give dimensional strengths and rates.
     std::optional<double> uplift = std::nullopt; ///< the smaller uplift acceleration over g [1]
-    double pace = 1;                             ///< p of the side plus [1/s]
+    double frequency_parameter = 1;              ///< p of the side plus [1/s]
 
     Grid grid() const
     {
@@ -37,10 +37,10 @@ struct PulsesOfBlock {
             return values;
         };
         const Quantities strength_and_rate =
-            uplift
-                ? Quantities{axis("pga", times(amplitudes, *uplift)),
-                             axis("pulse_frequency", times(frequencies, pace / (2 * pi<double>())))}
-                : Quantities{axis("amplitude", amplitudes), axis("frequency", frequencies)};
+            uplift ? Quantities{axis("pga", times(amplitudes, *uplift)),
+                                axis("pulse_frequency",
+                                     times(frequencies, frequency_parameter / (2 * pi<double>())))}
+                   : Quantities{axis("amplitude", amplitudes), axis("frequency", frequencies)};
         return grid_of({}, block + strength_and_rate);
     }
 };
@@ -115,7 +115,7 @@ private:
             {},
             {},
             uplift_threshold(scene_.theory, std::min(block.slenderness, block.other.slenderness)),
-            block.pace};
+            block.frequency_parameter};
     }
 
     /// Bodies with sides that may be very different, some of which do not stand.

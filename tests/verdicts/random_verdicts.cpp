@@ -61,17 +61,18 @@ void name_point(const char* what, const Scene& scene, const Numerics& numerics, 
 {
     const Point point = Coordinates(scene, grid).points()[std::size_t(number)];
     const Block<double>& block = point.block;
-    std::printf(
-        "  %s: %s %s %s %g%s, window %.17g, cycles %g, gamma %.17g, nu %.17g, alpha %.17g, "
-        "R %.17g, p %.17g, other side: %.17g, %.17g, %.17g, r %.17g, omega %.17g, a %.17g: "
-        "margin %.6g, bound %.3g, true %.6g, off by %.3g\n",
-        what, std::string(name_of(scene.pulse()->kind)).c_str(),
-        std::string(name_of(scene.theory)).c_str(), std::string(name_of(numerics.method)).c_str(),
-        numerics.tolerance, numerics.resolve ? " resolved" : "", scene.pulse()->shape.window,
-        scene.pulse()->shape.cycles, scene.pulse()->shape.gamma, scene.pulse()->shape.nu,
-        block.slenderness, block.size, block.pace, block.other.slenderness, block.other.size,
-        block.other.pace, block.restitution, point.frequency, point.amplitude, found, bound,
-        truth[number].margin, std::abs(found - truth[number].margin));
+    std::printf("  %s: %s %s %s %g%s, window %.17g, cycles %g, gamma %.17g, nu %.17g, alpha %.17g, "
+                "R %.17g, p %.17g, other side: %.17g, %.17g, %.17g, r %.17g, omega %.17g, a %.17g: "
+                "margin %.6g, bound %.3g, true %.6g, off by %.3g\n",
+                what, std::string(name_of(scene.pulse()->kind)).c_str(),
+                std::string(name_of(scene.theory)).c_str(),
+                std::string(name_of(numerics.method)).c_str(), numerics.tolerance,
+                numerics.resolve ? " resolved" : "", scene.pulse()->shape.window,
+                scene.pulse()->shape.cycles, scene.pulse()->shape.gamma, scene.pulse()->shape.nu,
+                block.slenderness, block.size, block.frequency_parameter, block.other.slenderness,
+                block.other.size, block.other.frequency_parameter, block.restitution,
+                point.frequency, point.amplitude, found, bound, truth[number].margin,
+                std::abs(found - truth[number].margin));
 }
 
 void check_bounds(BoundCheck& check, const Scene& scene, const Grid& grid, const Outcomes& truth,

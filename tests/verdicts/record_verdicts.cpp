@@ -46,7 +46,7 @@ public:
         if (uniform() < 0.5) {
             const Body body = random_body(generator_);
             point.block = body.block(std::min(1.0, body.largest_restitution()));
-            point.frequency *= point.block.pace;
+            point.frequency *= point.block.frequency_parameter;
         }
         point.block.restitution = uniform() < 0.05 ? 1 : 0.3 + 0.7 * uniform();
         const double most =

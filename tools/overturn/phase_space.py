@@ -17,11 +17,11 @@ PIXELS = 600  # of a map of states, per side; even, so that none is at the angle
 
 class FreeBlock:
     """A block of given slenderness [rad] and restitution, in nonlinear or linear theory: one side of it, in its own
-    time. The other side is equal unless it is set; size R and pace p have any unit that both sides share."""
+    time. The other side is equal unless it is set; size R and frequency parameter p have units that both sides share."""
 
-    def __init__(self, slenderness, restitution, linear=False, size=1.0, pace=1.0):
+    def __init__(self, slenderness, restitution, linear=False, size=1.0, frequency_parameter=1.0):
         self.slenderness, self.restitution, self.linear = slenderness, restitution, linear
-        self.size, self.pace, self.other = size, pace, self
+        self.size, self.frequency_parameter, self.other = size, frequency_parameter, self
         self.largest_rate = float(self.separatrix_rate(0.0))  # Eq. 8
         self.top = size * self.largest_rate**2  # the energy at which it balances, over m g / 2
 
@@ -61,8 +61,8 @@ def block_of(plane):
     restitution, linear = value("restitution"), is_linear(plane.file)
     if "slenderness_plus" not in plane.file:
         return FreeBlock(value("slenderness"), restitution, linear)
-    plus, minus = (FreeBlock(value(f"slenderness_{side}"), restitution, linear, value(f"size_{side}"), value(pace))
-                   for side, pace in (("plus", "frequency_parameter"), ("minus", "frequency_parameter_minus")))
+    plus, minus = (FreeBlock(value(f"slenderness_{side}"), restitution, linear, value(f"size_{side}"), value(p))
+                   for side, p in (("plus", "frequency_parameter"), ("minus", "frequency_parameter_minus")))
     plus.other, minus.other = minus, plus
     return plus
 
@@ -79,7 +79,7 @@ def regions_of_states(block, angle, velocity):
     for side, sign, own, other in ((block, 1, "+", "-"), (block.other, -1, "-", "+")):
         on_side = angle > 0 if sign > 0 else angle <= 0
         c = side.separatrix_rate(angle[on_side])
-        rate = sign * velocity[on_side] * block.pace / side.pace
+        rate = sign * velocity[on_side] * block.frequency_parameter / side.frequency_parameter
         energy = side.size * (side.largest_rate**2 - c**2 + rate**2)  # over m g / 2
         after = side.restitution * energy
         codes[on_side] = np.select(
@@ -129,7 +129,7 @@ def boundaries(block, highest):
             q = side.largest_rate**2 - energy / side.size
             tip = side.outermost_angle(max(q, 0))  # where the speed is zero, and its slope infinite
             angle = np.sort(np.append(np.linspace(2e-9, HALF_TURN, 1001), [tip - 1e-8, tip + 1e-8]))
-            rate = side.rate(angle, q) * side.pace / block.pace
+            rate = side.rate(angle, q) * side.frequency_parameter / block.frequency_parameter
             lines += [edge(sign * angle, way * rate, 0, 1) for way in (1, -1)]
     return lines
 

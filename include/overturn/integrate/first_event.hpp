@@ -67,7 +67,7 @@ struct FirstEvent {
 
 /// The motion at an event next to the end of a step.
 template <Number T>
-struct Meeting {
+struct StepEvent {
     T time;  ///< of the end of the step
     T delay; ///< from there to the event; may be negative; 0 without an event
     T tilt;  ///< at time + delay: 0 at an impact, pi/2 at a fall [rad]
@@ -80,7 +80,7 @@ struct Meeting {
 
 /// Corrects an event to the zero of the gap next to the end of the step, which has this motion.
 template <Number T>
-Meeting<T> meeting_near(const FirstEvent<T>& event, const StepMotion<T>& end)
+StepEvent<T> event_near(const FirstEvent<T>& event, const StepMotion<T>& end)
 {
     const EventCorrection<T> found = event_correction(gap_of(end, event.falls));
     const mask_t<T> hits = (event.strikes || event.falls) && found.hits;
@@ -94,23 +94,22 @@ Meeting<T> meeting_near(const FirstEvent<T>& event, const StepMotion<T>& end)
             event.falls && found.hits};
 }
 
-/// Moves the end of a step to a meeting next to it, whose delay is in 1/p.
+/// Moves the end of a step to an event next to it, whose delay is in 1/p.
 template <Number T>
-void move_to(const Meeting<T>& meeting, auto& end, const auto& excitation)
+void move_to(const StepEvent<T>& event, auto& end, const auto& excitation)
 {
-    const T delayed = end.phase + excitation.frequency * meeting.delay;
-    end.phase =
-        select<T>(meeting.happens(), lesser<T>(delayed, T(excitation.motion.end)), end.phase);
-    end.tilt = meeting.tilt;
-    end.rate = meeting.rate;
-    end.strikes = meeting.strikes;
-    end.falls = meeting.falls;
+    const T delayed = end.phase + excitation.frequency * event.delay;
+    end.phase = select<T>(event.happens(), lesser<T>(delayed, T(excitation.motion.end)), end.phase);
+    end.tilt = event.tilt;
+    end.rate = event.rate;
+    end.strikes = event.strikes;
+    end.falls = event.falls;
 }
 
 /// The lanes in which the block may strike the ground or reach pi/2 within the step.
 /// tilt: encloses the tilt [rad]. noise: by how much round-off lowers a tilt of 0 [rad].
 template <Number T>
-mask_t<T> may_meet(const Enclosure<T>& tilt, const T& noise)
+mask_t<T> may_have_event(const Enclosure<T>& tilt, const T& noise)
 {
     using S = scalar_t<T>;
     return lower_bound(tilt.lower()) < -noise ||
@@ -118,7 +117,7 @@ mask_t<T> may_meet(const Enclosure<T>& tilt, const T& noise)
 }
 
 /// Where the bounds of a tilt first reach the ground or pi/2, in the lanes in `suspect`, see
-/// may_meet(); the time is the share of the step.
+/// may_have_event(); the time is the share of the step.
 template <Number T>
 FirstEvent<T> first_contact(const Enclosure<T>& tilt, const T& noise, const mask_t<T>& suspect)
 {

@@ -15,19 +15,19 @@ struct ForcedEnd {
     mask_t<T> rested;     ///< came to rest after a bounce series
     mask_t<T> capped;     ///< stopped after too many steps: the state is meaningless
     mask_t<T> not_finite; ///< stopped at a non-finite number: the state is meaningless
-    T impacts;            ///< not those of a bounce series that died out; an output
+    T impacts{};          ///< not those of a bounce series that died out; an output
     T steps;              ///< steps tried
     T phase;              ///< at the end of the motion, or at the fall [rad or samples]
     /// Only if they are outputs:
-    T error;            ///< bound on the error of the margin, to first order; infinite if unknown
-    mask_t<T> in_doubt; ///< the error is not smaller than |margin|, or there is no margin
-    T peak;             ///< the largest tilt; on the side minus, times alpha+ / alpha- [rad]
-    T softest_impact;   ///< the smallest speed of the impacts that would not occur at a smaller
-                        ///< speed, because the block accelerates outward; with the peak
-                        ///< under a pulse [rad]
-    T last_impact;      ///< the speed of the last impact; with the peak under a pulse [rad]
-    T lowest_turn;      ///< the lowest tilt at which the block turned outward without an impact;
-                        ///< with the peak; infinite if there is none [rad]
+    T error{};            ///< bound on the error of the margin, to first order; infinite if unknown
+    mask_t<T> in_doubt{}; ///< the error is not smaller than |margin|, or there is no margin
+    T peak{};             ///< the largest tilt; on the side minus, times alpha+ / alpha- [rad]
+    T softest_impact{};   ///< the smallest speed of the impacts that would not occur at a smaller
+                          ///< speed, because the block accelerates outward; with the peak
+                          ///< under a pulse [rad]
+    T last_impact{};      ///< the speed of the last impact; with the peak under a pulse [rad]
+    T lowest_turn{};      ///< the lowest tilt at which the block turned outward without an impact;
+                          ///< with the peak; infinite if there is none [rad]
 
     mask_t<T> is_stopped() const { return capped || not_finite; }
 };

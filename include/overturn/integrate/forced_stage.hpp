@@ -3,17 +3,14 @@
 // Lanes run in lockstep, each with its own step size; a finished lane is frozen.
 #pragma once
 
-#include "overturn/integrate/contact_watch.hpp"
-#include "overturn/integrate/event.hpp"
-#include "overturn/integrate/forced_end.hpp"
-#include "overturn/integrate/margin_error.hpp"
+#include "overturn/integrate/observers/contact.hpp"
+#include "overturn/integrate/observers/observers.hpp"
 #include "overturn/integrate/record_stepper.hpp"
 #include "overturn/integrate/runge_kutta_stepper.hpp"
 #include "overturn/integrate/taylor_stepper.hpp"
 #include "overturn/mechanics/bounce_series.hpp"
 
 #include <optional>
-#include <vector>
 
 namespace overturn {
 
@@ -22,13 +19,6 @@ namespace overturn {
 /// threshold causes more impacts if the block loses little energy (r within 1e-5 of 1); the point
 /// remains undecided. One step per interval of a record is added.
 inline constexpr double most_steps = 1 << 20;
-
-/// A block just after an event. Until the next event, it rocks on its side or rests.
-template <Number T>
-struct Event {
-    EventKind kind;
-    Rocking<T> rocking;
-};
 
 /// Selects Dormand-Prince 5(4), only for pulses.
 struct RungeKutta {
@@ -56,8 +46,7 @@ class ForcedStage {
     using E = estimate_t<T>;
     using Mask = mask_t<T>;
     static constexpr bool is_recorded = !std::same_as<Excitation, PulseExcitation<T>>;
-    static constexpr bool may_watch = outputs.contact;
-    static_assert(!may_watch || Equations<theory>::has_contact_forces);
+    static_assert(!outputs.contact || Equations<theory>::has_contact_forces);
 
 public:
     /// uncertain_impact: used only if the error is an output. contact: only if it is an output.
@@ -80,20 +69,13 @@ public:
                        .rested = none,
                        .capped = none,
                        .not_finite = none,
-                       .impacts = T(0),
                        .steps = T(0),
-                       .phase = end_,
-                       .error = T(0),
-                       .in_doubt = none,
-                       .peak = T(0),
-                       .softest_impact = T(std::numeric_limits<S>::infinity()),
-                       .last_impact = T(std::numeric_limits<S>::infinity()),
-                       .lowest_turn = T(std::numeric_limits<S>::infinity())};
-        if constexpr (may_watch) {
+                       .phase = end_};
+        if constexpr (outputs.contact) {
             followed_ = none;
             if (contact) {
-                watch_.emplace(*contact);
-                see_side();
+                contact_.emplace(*contact);
+                set_side_of_contact();
             }
         }
         if (is_two_sided_) {
@@ -103,7 +85,7 @@ public:
     }
 
     /// The events so far, in order; only if they are an output.
-    const auto& events() const { return events_; }
+    const auto& events() const { return observers_.events.all; }
 
     /// As seen from the side on which it rocks, or rocked at the end.
     const Block<T>& block() const { return block_; }
@@ -114,31 +96,26 @@ public:
     /// Takes one step in every active lane and handles the event at its end.
     void advance()
     {
-        const auto see = [&]<int halvings>(const auto& end, const Mask& lanes, const auto& step) {
-            if_watched([&](auto& watch) {
-                watch.template see_step<halvings>({estimate_of(now_.tilt), estimate_of(now_.rate),
-                                                   estimate_of(end.tilt), estimate_of(end.rate)},
-                                                  active_, active_ && lanes, step);
+        const auto observe = [&]<int halvings>(const auto& end, const Mask& lanes,
+                                               const auto& step) {
+            with_contact([&](auto& contact) {
+                contact.template pass_step<halvings>({estimate_of(now_.tilt),
+                                                      estimate_of(now_.rate), estimate_of(end.tilt),
+                                                      estimate_of(end.rate)},
+                                                     active_, active_ && lanes, step);
             });
         };
-        const auto step =
-            straight_line<T>([&] { return stepper_.step(now_, active_, end_of_run_, see); });
+        const auto step = straight_line<T>(
+            [&] { return stepper_.step(now_, active_, observers_.extremes, observe); });
         count_step(step.broken);
         const Mask moved = active_ && step.moved;
-        if constexpr (outputs.error) {
-            margin_error_.pass_step(block_, excitation_, now_, step, but_followed(moved));
-        }
-        if constexpr (outputs.peak) {
-            const Mask counted = but_followed(moved);
-            T& peak = end_of_run_.peak;
-            peak = select<T>(counted, greater<T>(step.extremes.peak, peak), peak);
-            T& turn = end_of_run_.lowest_turn;
-            turn = select<T>(counted, lesser<T>(step.extremes.lowest_turn, turn), turn);
-        }
+        observers_.each([&](auto& observer) {
+            observer.pass_step(block_, excitation_, now_, step, but_followed(moved));
+        });
         now_.phase = select<T>(moved, step.phase, now_.phase);
         now_.tilt = select<T>(moved, step.tilt, now_.tilt);
         now_.rate = select<T>(moved, step.rate, now_.rate);
-        record(EventKind::step, moved);
+        pass_event(EventKind::step, moved);
         const Mask fell = moved && step.falls;
         const Mask strikes = moved && step.strikes;
         if (any<T>(fell || strikes)) {
@@ -157,28 +134,24 @@ public:
     ForcedEnd<T> end() const
     {
         ForcedEnd<T> end = end_of_run_;
-        if constexpr (outputs.peak) {
-            if (is_two_sided_) {
-                end.peak = end.peak * (from_plus_.slenderness / block_.slenderness);
-            }
-        }
-        if constexpr (outputs.error) {
-            end = margin_error_.at_end(block_, excitation_, now_, end);
-        }
+        observers_.each([&](const auto& observer) {
+            observer.complete(end, block_, from_plus_, excitation_, now_);
+        });
         return end;
     }
 
     /// What the contact had to bear, if it was watched and all lanes have an end.
     ContactDemand<E> contact_demand() const
-        requires may_watch
+        requires(outputs.contact)
     {
         const State<T>& state = end_of_run_.state;
         const Mask returns = state.rate < Equations<theory>::separatrix_rate(block_, state.tilt);
         const Mask rocks_on = !(end_of_run_.fell || end_of_run_.is_stopped());
         const State<E> end{estimate_of(state.tilt), estimate_of(state.rate),
                            estimate_of(state.side)};
-        return watch_->demand(end_of_run_.fell || !returns,
-                              free_contact(end, estimate_of(block_), watch_->sides(), rocks_on));
+        return contact_->demand(
+            end_of_run_.fell || !returns,
+            free_contact(end, estimate_of(block_), contact_->sides(), rocks_on));
     }
 
 private:
@@ -186,30 +159,30 @@ private:
     /// the contact sees.
     Mask but_followed(const Mask& lanes) const
     {
-        if constexpr (may_watch) {
+        if constexpr (outputs.contact) {
             return lanes && !followed_;
         } else {
             return lanes;
         }
     }
 
-    void see_side()
+    void set_side_of_contact()
     {
-        if_watched([&](auto& watch) {
+        with_contact([&](auto& contact) {
             const auto ground = excitation_.ground_bounds();
             std::array<E, 5> bounds;
             std::ranges::transform(ground, bounds.begin(),
                                    [](const T& bound) { return estimate_of(bound); });
-            watch.see_side(estimate_of(now_.side), estimate_of(block_.slenderness), bounds);
+            contact.set_side(estimate_of(now_.side), estimate_of(block_.slenderness), bounds);
         });
     }
 
-    /// Calls visit(watch) if the contact is watched.
-    void if_watched([[maybe_unused]] const auto& visit)
+    /// Calls visit(observer) if the contact is watched.
+    void with_contact([[maybe_unused]] const auto& visit)
     {
-        if constexpr (may_watch) {
-            if (watch_) {
-                visit(*watch_);
+        if constexpr (outputs.contact) {
+            if (contact_) {
+                visit(*contact_);
             }
         }
     }
@@ -227,27 +200,28 @@ private:
         };
         // On each side, the flights are shorter by the factor r from one to the next.
         const T flights =
-            (rate + rate) * (block_.pace / (other.pace * pull_at(now_.phase, other, -now_.side)) +
+            (rate + rate) * (block_.frequency_parameter / (other.frequency_parameter *
+                                                           pull_at(now_.phase, other, -now_.side)) +
                              other.rate_ratio() / pull_at(now_.phase, block_, now_.side));
         const T lost = select<T>(lanes, 1 - block_.restitution, 1);
         const T duration = flights / lost * excitation_.frequency;
         const T decay = 5000 * rough_log2(block_.restitution); // of ten thousand bounces
         const T followed = rough_power_of_two(greater<T>(decay, -900));
         const Mask ends = lanes && (duration < 1e-6 || rate < followed * block_.slenderness);
-        const auto see = [&](const T& phase, const Block<T>& block, const T& side) {
+        const auto observe = [&](const T& phase, const Block<T>& block, const T& side) {
             const auto push = estimate_of(side * excitation_.ground(phase));
             const E none(0);
             const MovingBlock<E, std::remove_cvref_t<decltype(push)>> standing{none, none, push,
                                                                                push};
-            watch_->see_rest(
-                demand_of(force_while_rocking(watch_->sides().seen_from(estimate_of(side)),
+            contact_->pass_rest(
+                demand_of(force_while_rocking(contact_->sides().seen_from(estimate_of(side)),
                                               estimate_of(block.slenderness), standing)),
                 ends);
         };
         const T end = select<T>(ends, lesser<T>(now_.phase + duration, end_), now_.phase);
         for (const T& phase : {now_.phase, end}) {
-            see(phase, block_, now_.side);
-            see(phase, other, -now_.side);
+            observe(phase, block_, now_.side);
+            observe(phase, other, -now_.side);
         }
         return ends;
     }
@@ -255,43 +229,40 @@ private:
     /// The block rests between two phases; not at all if they are equal, as at the onset of a
     /// motion that lifts it at once. The friction that a record asks for is monotone between two
     /// samples.
-    [[gnu::noinline, gnu::cold]] void see_rest(const Mask& at_rest, const T& first, const T& last)
+    [[gnu::noinline, gnu::cold]] void rest_on_contact(const Mask& at_rest, const T& first,
+                                                      const T& last)
     {
         const Mask lanes = at_rest && first < last;
-        const ContactSide<E>& side = watch_->sides().plus;
+        const ContactSide<E>& side = contact_->sides().plus;
         if constexpr (is_recorded) {
-            const auto see = [&](const T& phase, const Mask& at) {
+            const auto observe = [&](const T& phase, const Mask& at) {
                 const auto push = estimate_of(excitation_.ground(phase));
-                watch_->see_rest(demand_of(force_at_rest(side, push, push)), at);
+                contact_->pass_rest(demand_of(force_at_rest(side, push, push)), at);
             };
             for (T phase = first; any<T>(lanes && phase < last); phase = floor(phase) + 1) {
-                see(phase, lanes && phase < last);
+                observe(phase, lanes && phase < last);
             }
-            see(last, lanes);
+            observe(last, lanes);
         } else {
             // Both are monotone functions of the push.
-            const auto see = [&](const T& phase, const Mask& at) {
+            const auto observe = [&](const T& phase, const Mask& at) {
                 const T push = excitation_.ground(phase);
-                watch_->see_rest(demand_of(force_at_rest(side, push, push)), at);
+                contact_->pass_rest(demand_of(force_at_rest(side, push, push)), at);
             };
-            see(first, lanes);
-            see(last, lanes);
+            observe(first, lanes);
+            observe(last, lanes);
             for (const S& peak : excitation_.motion.peaks) {
                 const Mask within = lanes && first < T(peak) && T(peak) < last;
                 if (any<T>(within)) {
-                    see(T(peak), within);
+                    observe(T(peak), within);
                 }
             }
         }
     }
 
-    void record([[maybe_unused]] EventKind kind, [[maybe_unused]] const Mask& happened)
+    void pass_event(EventKind kind, const Mask& lanes)
     {
-        if constexpr (outputs.events) {
-            if (happened) {
-                events_.push_back({kind, now_});
-            }
-        }
+        observers_.each([&](auto& observer) { observer.pass_event(kind, now_, lanes); });
     }
 
     /// Sets the lanes to rest until the next uplift. Lanes without another uplift are finished.
@@ -299,7 +270,8 @@ private:
     {
         const T next = excitation_.next_uplift(lanes, now_.phase, lifted_);
         const Mask lifted = lanes && next < end_;
-        if_watched([&](auto&) { see_rest(lanes, now_.phase, select<T>(lifted, next, end_)); });
+        with_contact(
+            [&](auto&) { rest_on_contact(lanes, now_.phase, select<T>(lifted, next, end_)); });
         if (is_two_sided_) {
             now_.side = select<T>(lanes, side_at_rest_, now_.side);
         }
@@ -312,9 +284,9 @@ private:
         if (is_two_sided_) {
             change_sides();
         }
-        record(EventKind::uplift, lifted);
+        pass_event(EventKind::uplift, lifted);
         finish(lanes && !lifted);
-        if_watched([&](auto& watch) { watch.turn(estimate_of(now_.side)); });
+        with_contact([&](auto& contact) { contact.turn(estimate_of(now_.side)); });
         stepper_.lift(now_, lifted);
     }
 
@@ -325,24 +297,21 @@ private:
         return select<T>(barrier_ratio<theory>(largest, block) > 1, -1, 1);
     }
 
-    /// Sees the blocks from the sides on which they rock now. The peak remains the largest share of
-    /// alpha, times the alpha of the side.
+    /// Sees the blocks from the sides on which they rock now.
     [[gnu::noinline, gnu::cold]] void change_sides()
     {
-        [[maybe_unused]] const T before = block_.slenderness;
+        const T before = block_.slenderness;
         const Mask is_plus = now_.side > 0;
         block_ =
             combined([&](const T& plus, const T& minus) { return select<T>(is_plus, plus, minus); },
                      from_plus_, from_plus_.turned());
-        if constexpr (outputs.peak) {
-            T& peak = end_of_run_.peak;
-            peak = peak * (block_.slenderness / before);
-        }
+        observers_.each(
+            [&](auto& observer) { observer.change_sides(T(block_.slenderness / before)); });
         rate_ratio_ = block_.rate_ratio();
-        excitation_.frequency = frequency_ / block_.pace;
+        excitation_.frequency = frequency_ / block_.frequency_parameter;
         fastest_series_ = fastest_bounce_series(block_, excitation_);
-        stepper_.see_side(block_, excitation_.frequency);
-        see_side();
+        stepper_.set_side(block_, excitation_.frequency);
+        set_side_of_contact();
     }
 
     /// Freezes the lanes in their current state.
@@ -385,51 +354,32 @@ private:
         }
         const Mask counted = but_followed(lanes);
         const Mask dies_out = but_followed(rests);
-        if constexpr (may_watch) {
-            if (watch_) {
+        if constexpr (outputs.contact) {
+            if (contact_) {
                 const Mask series = lanes && (rests || followed_);
                 rests = any<T>(series) ? ends_series(series, after.rate) : series;
                 followed_ = (followed_ || series) && !rests;
             }
         }
-        if constexpr (outputs.error) {
-            margin_error_.pass_impact(block_, excitation_, now_, counted, dies_out);
-        }
-        // For filling, which is for pulses only.
-        if constexpr (outputs.peak && !is_recorded) {
-            const T push = now_.side * excitation_.ground(now_.phase);
-            const Mask outward = Equations<theory>::acceleration(block_, T(0), push) > 0;
-            T& softest = end_of_run_.softest_impact;
-            softest = select<T>(counted && !dies_out && outward && -now_.rate < softest, -now_.rate,
-                                softest);
-            T& last = end_of_run_.last_impact;
-            last = select<T>(counted && !dies_out, -now_.rate, last);
-        }
+        observers_.each([&](auto& observer) {
+            observer.pass_impact(block_, excitation_, now_, counted, dies_out);
+        });
         now_.rate = select<T>(lanes, after.rate, now_.rate);
         now_.side = select<T>(lanes, after.side, now_.side);
-        if constexpr (outputs.impacts) {
-            T& impacts = end_of_run_.impacts;
-            impacts = select<T>(counted, impacts + 1, impacts);
-        }
         if (is_two_sided_) {
             change_sides();
         }
-        record(EventKind::impact, lanes);
-        record(EventKind::rest, rests);
+        pass_event(EventKind::impact, counted);
+        pass_event(EventKind::rest, dies_out);
         end_of_run_.rested = end_of_run_.rested || dies_out;
-        if constexpr (outputs.error) {
-            if (any<T>(dies_out)) {
-                margin_error_.forget(dies_out);
-            }
-        }
         if (any<T>(rests)) {
             wait_for_uplift(rests);
         }
-        if_watched([&](auto& watch) { watch.turn(estimate_of(now_.side)); });
+        with_contact([&](auto& contact) { contact.turn(estimate_of(now_.side)); });
         stepper_.turn(now_, lanes && active_);
         if constexpr (outputs.error) {
             if (uncertain_impact_ == UncertainImpact::stop) {
-                finish(active_ && margin_error_.is_doubtful());
+                finish(active_ && observers_.error.is_doubtful());
             }
         }
     }
@@ -450,15 +400,14 @@ private:
     ForcedEnd<T> end_of_run_;
     const bool is_two_sided_;
     const Block<T> from_plus_; // the blocks as seen from the side plus
-    const T frequency_;        // of the motion, in the unit of Block::pace
+    const T frequency_;        // of the motion, in the unit of Block::frequency_parameter
     T side_at_rest_;           // that of the higher barrier: the margin is smaller there
     T rate_ratio_;             // of an impact on the side on which the block rocks
     T fastest_series_;
 
-    [[no_unique_address]] OnlyIf<may_watch, std::optional<ContactWatch<E>>> watch_;
-    [[no_unique_address]] OnlyIf<may_watch, Mask> followed_; // see but_followed()
-    [[no_unique_address]] OnlyIf<outputs.error, MarginError<theory, T>> margin_error_;
-    [[no_unique_address]] OnlyIf<outputs.events, std::vector<Event<T>>> events_;
+    [[no_unique_address]] Observers<outputs, theory, T, is_recorded> observers_;
+    [[no_unique_address]] OnlyIf<outputs.contact, std::optional<ContactObserver<E>>> contact_;
+    [[no_unique_address]] OnlyIf<outputs.contact, Mask> followed_; // see but_followed()
     UncertainImpact uncertain_impact_;
 };
 

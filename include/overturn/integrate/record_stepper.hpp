@@ -3,8 +3,8 @@
 // the series and ends the step. No step is repeated.
 #pragma once
 
-#include "overturn/integrate/contact_watch.hpp"
 #include "overturn/integrate/first_event.hpp"
+#include "overturn/integrate/observers/contact.hpp"
 #include "overturn/integrate/taylor_errors.hpp"
 #include "overturn/mechanics/contact.hpp"
 #include "overturn/mechanics/record_excitation.hpp"
@@ -40,10 +40,10 @@ public:
                                                                   : S(loosest_record_tolerance)),
           errors_(estimate_of(rough_log2(tolerance_)))
     {
-        see_side(block, excitation.frequency);
+        set_side(block, excitation.frequency);
     }
 
-    void see_side(const Block<T>& block, const T& frequency)
+    void set_side(const Block<T>& block, const T& frequency)
     {
         side_ = block;
         excitation_.frequency = frequency;
@@ -61,7 +61,7 @@ public:
     void turn(const Rocking<T>&, const Mask&) {}
 
     auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far,
-              [[maybe_unused]] const auto& see) const
+              [[maybe_unused]] const auto& observe) const
     {
         const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
         const auto push = excitation_.template series<1>(now.side * excitation_.acceleration,
@@ -73,7 +73,7 @@ public:
         T h = longest_step(now, series, left, active);
         const Mask none = active && !active;
         const StepBounds<T> bounds = bounds_over(series, push, h);
-        const Mask suspect = active && may_meet(series, bounds, h);
+        const Mask suspect = active && may_have_event(series, bounds, h);
         const T tilt = value_of_series(series.tilt, h);
         const T rate = value_of_series(series.rate, h);
         StepEnd<T, outputs> end;
@@ -85,16 +85,16 @@ public:
         end.falls = none;
         end.broken = none;
         if (any<T>(suspect)) {
-            const Meeting<T> meeting =
-                first_meeting(series, bounds, {h, T(0), tilt, rate, none, none}, suspect);
-            h = meeting.time;
-            const T phase = now.phase + (h + meeting.delay) * samples_per_unit_;
-            end.phase = select<T>(h == left && !meeting.happens(), end_of_piece,
+            const StepEvent<T> event =
+                first_event_within(series, bounds, {h, T(0), tilt, rate, none, none}, suspect);
+            h = event.time;
+            const T phase = now.phase + (h + event.delay) * samples_per_unit_;
+            end.phase = select<T>(h == left && !event.happens(), end_of_piece,
                                   lesser<T>(phase, end_of_piece));
-            end.tilt = select<T>(meeting.tilt < 0, 0, meeting.tilt);
-            end.rate = meeting.rate * time_.per_time;
-            end.strikes = meeting.strikes;
-            end.falls = meeting.falls;
+            end.tilt = select<T>(event.tilt < 0, 0, event.tilt);
+            end.rate = event.rate * time_.per_time;
+            end.strikes = event.strikes;
+            end.falls = event.falls;
             end.broken = active && !((tilt - tilt) + (rate - rate) == 0);
         }
         // The tilt is nowhere farther from its values at both ends.
@@ -108,7 +108,7 @@ public:
                 errors_.of(step, side_, pushes, end, error_of_estimates(series, estimate_of(h)));
         }
         if constexpr (outputs.contact) {
-            see.template operator()<0>(end, active, seen_step(series, push, now, end));
+            observe.template operator()<0>(end, active, observed_step(series, push, now, end));
         }
         if constexpr (outputs.peak) {
             const auto& rough = estimate_of(series);
@@ -122,8 +122,8 @@ public:
     }
 
 private:
-    auto seen_step(const Series& series, const auto& push, const Rocking<T>& now,
-                   const auto& end) const
+    auto observed_step(const Series& series, const auto& push, const Rocking<T>& now,
+                       const auto& end) const
     {
         const E per_unit = estimate_of(time_.per_time);
         const E length = estimate_of((end.phase - now.phase) * units_per_sample_);
@@ -134,7 +134,7 @@ private:
                 tilt, rate, ground, pushes.slope_over(per_unit)};
         };
         const auto slope = moving(E(0), E(0), E(0)).push_slope;
-        return SeenStep{
+        return ObservedStep{
             length * estimate_of(time_.unit),
             E(abs(horizontal_of(slope)) + abs(gravity_of(slope, E(0)))),
             false,
@@ -210,26 +210,26 @@ private:
     }
 
     /// The lanes in which the block may strike the ground or reach pi/2 within the step.
-    static Mask may_meet(const Series& series, const StepBounds<T>& bounds, const T& h)
+    static Mask may_have_event(const Series& series, const StepBounds<T>& bounds, const T& h)
     {
         const T straight = fma(series.rate[0], h, series.tilt[0]);
         const T aside = bounds.acceleration * (h * h) * 0.5;
         return !(straight >= aside && straight + aside <= T(pi<S>() / 2));
     }
 
-    /// The first impact or fall within a step, in the lanes in which there may be one. meeting: at
+    /// The first impact or fall within a step, in the lanes in which there may be one. event: at
     /// the end of the whole step.
     ///
     /// If the tilt decreases throughout the step, or if it accelerates towards the ground, it falls
     /// below 0 once, if it is below 0 at the end. A lane in which neither is certain, or that may
     /// reach pi/2, is left to first_event().
-    Meeting<T> first_meeting(const Series& series, const StepBounds<T>& bounds, Meeting<T> meeting,
-                             const Mask& suspect) const
+    StepEvent<T> first_event_within(const Series& series, const StepBounds<T>& bounds,
+                                    StepEvent<T> event, const Mask& suspect) const
     {
-        const T h = meeting.time;
+        const T h = event.time;
         const T noise = dip_of_round_off(side_.slenderness, h * time_.unit);
         const T& start = series.rate[0];
-        const StepMotion<T> end{meeting.tilt, meeting.rate, slope_of_series(series.rate, h)};
+        const StepMotion<T> end{event.tilt, event.rate, slope_of_series(series.rate, h)};
         // A function is nowhere larger than the mean of its values at both ends and of h / 2 times
         // the bound of its slope.
         const Mask concave = series.rate[1] + end.acceleration + bounds.jolt * h < 0;
@@ -238,16 +238,16 @@ private:
         const Mask low = series.tilt[0] + start * h + aside < T(pi<S>() / 2);
         const Mask simple =
             suspect && low && (concave || sinks) && (series.tilt[0] > 0 || start > 0);
-        meeting.strikes = simple && end.position < -noise;
+        event.strikes = simple && end.position < -noise;
         Mask odd = suspect && !simple;
-        if (any<T>(meeting.strikes)) {
-            const Mask missed = approach_ground(series, bounds, end, meeting);
+        if (any<T>(event.strikes)) {
+            const Mask missed = approach_ground(series, bounds, end, event);
             odd = odd || missed;
         }
         if (any<T>(odd)) {
-            search(series, h, noise, odd, meeting);
+            search(series, h, noise, odd, event);
         }
-        return meeting;
+        return event;
     }
 
     /// Finds the impact in the lanes that strike: by Halley's method, first of the leading terms of
@@ -255,9 +255,9 @@ private:
     /// at most jolt delay^2 / 2, that of its delay jolt |delay|^3 / (6 rate). Returns the lanes in
     /// which this fails. end: the motion at the end of the step.
     Mask approach_ground(const Series& series, const StepBounds<T>& bounds,
-                         const StepMotion<T>& end, Meeting<T>& meeting) const
+                         const StepMotion<T>& end, StepEvent<T>& event) const
     {
-        const T h = meeting.time;
+        const T h = event.time;
         const RockingSeries<4, E> rough = leading<4>(estimate_of(series));
         const auto nearer = [&](const E& time, const StepMotion<E>& at) -> E {
             const E square = fma(at.rate, at.rate, -0.5 * at.position * at.acceleration);
@@ -272,39 +272,39 @@ private:
         const auto within = [&](const T& time) { return lesser<T>(greater<T>(time, 0), h); };
         T time = within(T(guess));
         const T enough(2 * std::numeric_limits<S>::epsilon());
-        Mask open = meeting.strikes;
+        Mask open = event.strikes;
         constexpr int most_passes = 6;
         for (int pass = 0; pass < most_passes; ++pass) {
             const StepMotion<T> now = motion_at(series, time);
             const EventCorrection<T> found = event_correction(now);
             const Mask close = open && now.rate < 0 &&
                                bounds.jolt * found.delay * found.delay <= enough * found.closing;
-            meeting.time = select<T>(close, time, meeting.time);
-            meeting.delay = select<T>(close, found.delay, meeting.delay);
-            meeting.rate = select<T>(close, -found.closing, meeting.rate);
-            meeting.tilt = select<T>(close, 0, meeting.tilt);
+            event.time = select<T>(close, time, event.time);
+            event.delay = select<T>(close, found.delay, event.delay);
+            event.rate = select<T>(close, -found.closing, event.rate);
+            event.tilt = select<T>(close, 0, event.tilt);
             open = open && !close;
             if (!any<T>(open)) {
                 break;
             }
             time = within(time + found.delay);
         }
-        meeting.strikes = meeting.strikes && !open;
+        event.strikes = event.strikes && !open;
         return open;
     }
 
     [[gnu::noinline]] void search(const Series& series, const T& h, const T& noise,
-                                  const Mask& lanes, Meeting<T>& meeting) const
+                                  const Mask& lanes, StepEvent<T>& event) const
     {
         straight_line<T>([&] {
-            const auto event = first_event(series, enclosure(series.tilt, h), h, noise, lanes);
-            const Meeting<T> found = meeting_near(event, motion_at(series, event.time));
-            meeting.time = select<T>(lanes, found.time, meeting.time);
-            meeting.delay = select<T>(lanes, found.delay, meeting.delay);
-            meeting.tilt = select<T>(lanes, found.tilt, meeting.tilt);
-            meeting.rate = select<T>(lanes, found.rate, meeting.rate);
-            meeting.strikes = meeting.strikes || (lanes && found.strikes);
-            meeting.falls = lanes && found.falls;
+            const auto first = first_event(series, enclosure(series.tilt, h), h, noise, lanes);
+            const StepEvent<T> found = event_near(first, motion_at(series, first.time));
+            event.time = select<T>(lanes, found.time, event.time);
+            event.delay = select<T>(lanes, found.delay, event.delay);
+            event.tilt = select<T>(lanes, found.tilt, event.tilt);
+            event.rate = select<T>(lanes, found.rate, event.rate);
+            event.strikes = event.strikes || (lanes && found.strikes);
+            event.falls = lanes && found.falls;
         });
     }
 

@@ -1,9 +1,9 @@
 // Common types of the steppers, each of which integrates the motion on one side; ForcedStage
-// handles impacts, rest and uplift. see_side(): the blocks rock on other sides, of which these are
+// handles impacts, rest and uplift. set_side(): the blocks rock on other sides, of which these are
 // the properties. lift(), turn(): a block was lifted, or continues about its other corner. step():
 // one trial step in every lane; the results of inactive lanes are meaningless. so_far: the
-// StepExtremes of previous steps, if they are outputs; see(end, lanes, step): called with the step
-// as the contact sees it, see SeenStep, if the contact is an output.
+// StepExtremes of previous steps, if they are outputs; observe(end, lanes, step): called with the
+// step for the contact, see ObservedStep, if the contact is an output.
 #pragma once
 
 #include "overturn/integrate/error_growth.hpp"

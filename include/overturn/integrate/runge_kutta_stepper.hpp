@@ -2,8 +2,8 @@
 // is found on the dense output; the step is then repeated so that it ends at the event.
 #pragma once
 
-#include "overturn/integrate/contact_watch.hpp"
 #include "overturn/integrate/first_event.hpp"
+#include "overturn/integrate/observers/contact.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
 
 namespace overturn {
@@ -23,7 +23,7 @@ public:
         : excitation_(excitation), is_wavelet_(excitation.motion.is_wavelet()),
           tolerance_(tolerance)
     {
-        see_side(block, excitation.frequency);
+        set_side(block, excitation.frequency);
         step_size_ = first_step_;
         if constexpr (outputs.error) {
             embedded_share_ = 8 * rough_power_of_two(rough_log2(tolerance_) * T(S(2) / 5));
@@ -31,7 +31,7 @@ public:
     }
 
     /// Before lift() or turn().
-    void see_side(const Block<T>& block, const T& frequency)
+    void set_side(const Block<T>& block, const T& frequency)
     {
         side_ = block;
         excitation_.frequency = frequency;
@@ -64,7 +64,7 @@ public:
     }
 
     auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far,
-              [[maybe_unused]] const auto& see)
+              [[maybe_unused]] const auto& observe)
     {
         const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
         const T left = (end_of_piece - now.phase) / excitation_.frequency;
@@ -100,10 +100,10 @@ public:
         T delay(0);
         if (any<T>(arrived)) {
             const Mask flat = towards_fall_ > 0;
-            const Meeting<T> meeting = meeting_near<T>({h, arrived && !flat, arrived && flat},
-                                                       {end.tilt, end.rate, acceleration_});
-            move_to(meeting, end, excitation_);
-            delay = meeting.delay;
+            const StepEvent<T> at_end = event_near<T>({h, arrived && !flat, arrived && flat},
+                                                      {end.tilt, end.rate, acceleration_});
+            move_to(at_end, end, excitation_);
+            delay = at_end.delay;
         }
         if constexpr (outputs.error) {
             const T phase = now.phase + phase_step;
@@ -119,8 +119,8 @@ public:
         }
         if constexpr (outputs.contact) {
             if (any<T>(moved)) {
-                see.template operator()<halvings>(
-                    end, moved, seen_step({start, step, h}, now, end, phase_step));
+                observe.template operator()<halvings>(
+                    end, moved, observed_step({start, step, h}, now, end, phase_step));
             }
         }
         if constexpr (outputs.peak) {
@@ -150,25 +150,25 @@ private:
 
     static constexpr int halvings = 1; // of a step that the contact sees
 
-    auto seen_step(const TrialStep& trial, const Rocking<T>& now, const auto& end,
-                   const T& phase_step) const
+    auto observed_step(const TrialStep& trial, const Rocking<T>& now, const auto& end,
+                       const T& phase_step) const
     {
         const auto moving = [&](const T& tilt, const T& rate, const T& phase) {
             return moving_block(excitation_, {phase, tilt, rate, now.side}, now.phase);
         };
         const Quintic<T> tilt = dense_output(trial.start, trial.step.end, trial.length);
         const T per_step = 1 / select<T>(trial.length > 0, trial.length, 1);
-        return SeenStep{T((end.phase - now.phase) / excitation_.frequency),
-                        T(0),
-                        !excitation_.motion.has_kink(),
-                        [=, &now] { return moving(now.tilt, now.rate, now.phase); },
-                        [=, &end] { return moving(end.tilt, end.rate, end.phase); },
-                        [=, &now, &phase_step](const T& share) {
-                            const StepMotion<T> motion = motion_at(tilt, share);
-                            return moving(motion.position, motion.rate * per_step,
-                                          fma(share, phase_step, now.phase));
-                        },
-                        [=](const T& share) { return motion_at(tilt, share).position; }};
+        return ObservedStep{T((end.phase - now.phase) / excitation_.frequency),
+                            T(0),
+                            !excitation_.motion.has_kink(),
+                            [=, &now] { return moving(now.tilt, now.rate, now.phase); },
+                            [=, &end] { return moving(end.tilt, end.rate, end.phase); },
+                            [=, &now, &phase_step](const T& share) {
+                                const StepMotion<T> motion = motion_at(tilt, share);
+                                return moving(motion.position, motion.rate * per_step,
+                                              fma(share, phase_step, now.phase));
+                            },
+                            [=](const T& share) { return motion_at(tilt, share).position; }};
     }
 
     /// The stages are compiled for each pulse. Computing the pushes before the stages, or selecting

@@ -3,8 +3,8 @@
 // is repeated.
 #pragma once
 
-#include "overturn/integrate/contact_watch.hpp"
 #include "overturn/integrate/first_event.hpp"
+#include "overturn/integrate/observers/contact.hpp"
 #include "overturn/integrate/taylor_errors.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
 
@@ -27,10 +27,10 @@ public:
           tolerance_(tolerance), log2_tolerance_(rough_log2(tolerance_)),
           errors_(estimate_of(log2_tolerance_))
     {
-        see_side(block, excitation.frequency);
+        set_side(block, excitation.frequency);
     }
 
-    void see_side(const Block<T>& block, const T& frequency)
+    void set_side(const Block<T>& block, const T& frequency)
     {
         side_ = block;
         excitation_.frequency = frequency;
@@ -49,7 +49,7 @@ public:
     void turn(const Rocking<T>&, const Mask&) {}
 
     auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far,
-              [[maybe_unused]] const auto& see) const
+              [[maybe_unused]] const auto& observe) const
     {
         const auto push =
             excitation_.template series<known_order>(acceleration(now), now.phase, phase_per_unit_);
@@ -66,7 +66,7 @@ public:
         FirstEvent<T> event{h, none, none};
         const Enclosure<T> bounds = enclosure(series.tilt, h);
         const T noise = dip_of_round_off(side_.slenderness, h * time_.unit);
-        const Mask suspect = active && may_meet<T>(bounds, noise);
+        const Mask suspect = active && may_have_event<T>(bounds, noise);
         if (any<T>(suspect)) {
             event = first_event(series, bounds, h, noise, suspect);
             last = last && event.time == h;
@@ -87,7 +87,7 @@ public:
             const T acceleration =
                 slope_of_series(series.rate, h) * (time_.per_time * time_.per_time);
             const StepMotion<T> there{select<T>(ends_at_event, tilt, end.tilt), rate, acceleration};
-            move_to(meeting_near(event, there), end, excitation_);
+            move_to(event_near(event, there), end, excitation_);
         }
         const TaylorStep<known_order, T> taken{known, time_, h, lower_bound(bounds.lower()),
                                                upper_bound(bounds.upper())};
@@ -99,7 +99,7 @@ public:
             end.errors = errors_.of(taken, side_, pushes_at(now, h, end.phase), end, beyond);
         }
         if constexpr (outputs.contact) {
-            see.template operator()<halvings>(end, active, seen_step(series, now, end, h));
+            observe.template operator()<halvings>(end, active, observed_step(series, now, end, h));
         }
         if constexpr (outputs.peak) {
             end.extremes = extremes(taken, now, end, so_far);
@@ -110,12 +110,13 @@ public:
 private:
     static constexpr int halvings = 2; // of a step that the contact sees
 
-    auto seen_step(const Series& series, const Rocking<T>& now, const auto& end, const T& h) const
+    auto observed_step(const Series& series, const Rocking<T>& now, const auto& end,
+                       const T& h) const
     {
         const auto moving = [&](const T& tilt, const T& rate, const T& phase) {
             return moving_block(excitation_, {phase, tilt, rate, now.side}, now.phase);
         };
-        return SeenStep{
+        return ObservedStep{
             T((end.phase - now.phase) / excitation_.frequency),
             T(0),
             !excitation_.motion.has_kink(),

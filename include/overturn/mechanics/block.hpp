@@ -9,14 +9,14 @@ namespace overturn {
 /// A block on one of its two corners. Lengths and frequencies have any unit that both sides share.
 template <Number T>
 struct BlockSide {
-    T slenderness; ///< alpha: the tilt at which it would balance [rad]
-    T size = T(1); ///< R: distance from the corner to the centre of mass
-    T pace = T(1); ///< p: frequency parameter
+    T slenderness;                ///< alpha: the tilt at which it would balance [rad]
+    T size = T(1);                ///< R: distance from the corner to the centre of mass
+    T frequency_parameter = T(1); ///< p
 
     friend mask_t<T> operator==(const BlockSide& one, const BlockSide& other)
     {
         return one.slenderness == other.slenderness && one.size == other.size &&
-               one.pace == other.pace;
+               one.frequency_parameter == other.frequency_parameter;
     }
 };
 
@@ -25,7 +25,8 @@ template <class Combine, Number... T>
 auto combined(const Combine& combine, const BlockSide<T>&... sides)
     -> BlockSide<decltype(combine(sides.size...))>
 {
-    return {combine(sides.slenderness...), combine(sides.size...), combine(sides.pace...)};
+    return {combine(sides.slenderness...), combine(sides.size...),
+            combine(sides.frequency_parameter...)};
 }
 
 /// The same side in numbers of another type.
@@ -45,7 +46,7 @@ struct Block : BlockSide<T> {
         : BlockSide<T>(side), restitution(r), other(other_side)
     {}
 
-    /// Symmetric, with size and pace 1; the slenderness is arctan(b / h).
+    /// Symmetric, with size and frequency parameter 1; the slenderness is arctan(b / h).
     Block(const T& alpha, const T& r) : BlockSide<T>{alpha}, restitution(r), other{alpha} {}
 
     /// The same block as seen from the other side.

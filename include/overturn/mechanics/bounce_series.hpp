@@ -12,7 +12,8 @@ namespace overturn {
 template <Number T>
 T level_of_other_side(const Block<T>& block)
 {
-    return sqrt(block.other.size / block.size) * (block.other.pace / block.pace);
+    return sqrt(block.other.size / block.size) *
+           (block.other.frequency_parameter / block.frequency_parameter);
 }
 
 /// The rate after an impact above which bounces_die_out() is false, because the ground motion has
@@ -133,9 +134,10 @@ mask_t<T> bounces_die_out(const Block<T>& block, const auto& excitation, const T
         all_flights_end_within<one_increases, T>(duration, series + series, now, then);
     // On the other side, the square of the rate is larger by R_i / R_j. A change of the tilt
     // changes the pull by no more than the stiffness.
-    const T without_pace = weaker / greater<T>(block.other.pace / block.pace, 1);
+    const T smaller =
+        weaker / greater<T>(block.other.frequency_parameter / block.frequency_parameter, 1);
     const T stiffness = gravity_of(ground_now, T(1)) + abs(horizontal_of(ground_now));
-    const mask_t<T> low = 10 * rate * rate * stiffness <= without_pace * without_pace;
+    const mask_t<T> low = 10 * rate * rate * stiffness <= smaller * smaller;
     return weaker > 0 && ((in_time && short_enough && low) || rate == 0);
 }
 

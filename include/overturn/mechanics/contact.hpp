@@ -113,7 +113,8 @@ T friction_of_impact(const Block<T>& block, const ContactSide<T>& side, const Co
 {
     const FootOfCentre<T> here = foot_of_centre(side, block.slenderness);
     const FootOfCentre<T> there = foot_of_centre(other, block.other.slenderness);
-    const T kept = block.rate_ratio() * (block.other.pace / block.pace); // omega_j / omega_i
+    const T kept = block.rate_ratio() * (block.other.frequency_parameter /
+                                         block.frequency_parameter); // omega_j / omega_i
     const ContactForce<T> impulse{block.size * here.height * (1 - kept),
                                   block.size * here.distance +
                                       block.other.size * there.distance * kept};

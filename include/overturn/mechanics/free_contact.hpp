@@ -48,7 +48,7 @@ ContactDemand<T> demand_on_arc(const ContactSide<T>& side, const T& q, const Sin
             demand.include(demand_of(force_at(sine)), within);
         }
     };
-    const auto see_both = [&](const T& cosine) { // NaN is nowhere
+    const auto include_both = [&](const T& cosine) { // NaN is nowhere
         const T sine = sqrt(1 - cosine * cosine);
         see(sine);
         see(-sine);
@@ -56,12 +56,12 @@ ContactDemand<T> demand_on_arc(const ContactSide<T>& side, const T& q, const Sin
     see(T(0));
     const T a = 2 - q;
     const T& inertia = side.inertia;
-    see_both(a * T(scalar_t<T>(1) / 6));
+    include_both(a * T(scalar_t<T>(1) / 6));
     const T square = 6 + 3 * inertia;
     const T half = 0.5 * a * (1 + 5 * inertia);
     const T root = sqrt(half * half + square * (3 * (1 - inertia) - inertia * a * a));
-    see_both((half + root) / square);
-    see_both((half - root) / square);
+    include_both((half + root) / square);
+    include_both((half - root) / square);
     return demand;
 }
 

@@ -61,8 +61,9 @@ Q q_after_impact(const Block<T>& block, const Q& q)
     return q_after_impact(block, q, q_max_of<theory, Q>(block), q_max_of<theory, Q>(block.other));
 }
 
-/// Free rocking, one arc at a time; times since the beginning, in the unit of 1 / Block::pace,
-/// which is 1/p if the block is symmetric. Q: the type in which q is computed.
+/// Free rocking, one arc at a time; times since the beginning, in the unit of 1 /
+/// Block::frequency_parameter, which is 1/p if the block is symmetric. Q: the type in which q is
+/// computed.
 template <Theory theory, Number T, Number Q = MoreExact<T>>
 class FreeRocking {
 public:
@@ -81,13 +82,13 @@ public:
     const Block<T>& block() const { return block_; }
 
     /// The time at which the arc ends with an impact or with the block flat; infinite if never.
-    T impact_time() const { return begin_ + arc_.time_to_impact() / block_.pace; }
-    T fall_time() const { return begin_ + arc_.time_to_fall() / block_.pace; }
+    T impact_time() const { return begin_ + arc_.time_to_impact() / block_.frequency_parameter; }
+    T fall_time() const { return begin_ + arc_.time_to_fall() / block_.frequency_parameter; }
 
     /// The state of the arc at this time.
     State<T> at(const T& time) const
     {
-        const T since = (time - begin_) * block_.pace;
+        const T since = (time - begin_) * block_.frequency_parameter;
         return arc_.at(since > 0 ? since : T(0));
     }
 
@@ -188,7 +189,7 @@ T integral_of_half_periods(const T& v, const T& q, const Block<T>& block)
 
 /// A block that leaves the ground, with q accurate as in RockingArc.
 template <Number T>
-struct Leaving {
+struct PostImpact {
     T rate;
     T q;
     Block<T> block;
@@ -196,7 +197,7 @@ struct Leaving {
     T q_max_of_other;
 
     /// The next one.
-    Leaving after_impact() const
+    PostImpact after_impact() const
     {
         return {rate * block.rate_ratio(), q_after_impact(block, q, q_max, q_max_of_other),
                 block.turned(), q_max_of_other, q_max};
@@ -207,17 +208,17 @@ struct Leaving {
 /// symmetric block. On each of two different sides, the rate falls by r from one flight to the
 /// next, as that of a symmetric block with the restitution r^2.
 template <Number T, class Sum>
-T sum_on_both_sides(const Leaving<T>& leaving, const Sum& sum)
+T sum_on_both_sides(const PostImpact<T>& post_impact, const Sum& sum)
 {
-    const Block<T>& block = leaving.block;
+    const Block<T>& block = post_impact.block;
     if (block.is_symmetric()) {
-        return sum(leaving.rate, leaving.q, block) / block.pace;
+        return sum(post_impact.rate, post_impact.q, block) / block.frequency_parameter;
     }
-    const auto on_one = [&](const Leaving<T>& one) -> T {
+    const auto on_one = [&](const PostImpact<T>& one) -> T {
         const Block<T> symmetric{one.block.slenderness, block.restitution * block.restitution};
-        return sum(one.rate, one.q, symmetric) / one.block.pace;
+        return sum(one.rate, one.q, symmetric) / one.block.frequency_parameter;
     };
-    return on_one(leaving) + on_one(leaving.after_impact());
+    return on_one(post_impact) + on_one(post_impact.after_impact());
 }
 
 /// The time at which a block comes to rest, in the unit of FreeRocking; infinite if it falls, stays
@@ -239,12 +240,12 @@ T time_of_rest(const State<T>& begin, const Block<T>& block)
     const auto q_max = [](const BlockSide<T>& side) {
         return T(q_max_of<theory, MoreExact<T>>(side));
     };
-    Leaving<T> leaving{rocking.arc().at(T(0)).rate, rocking.arc().q(), rocking.block(),
-                       q_max(rocking.block()), q_max(rocking.block().other)};
-    if (leaving.rate == 0) {
+    PostImpact<T> post_impact{rocking.arc().at(T(0)).rate, rocking.arc().q(), rocking.block(),
+                              q_max(rocking.block()), q_max(rocking.block().other)};
+    if (post_impact.rate == 0) {
         return time;
     }
-    if (!(leaving.q > 0) || !(r < 1)) {
+    if (!(post_impact.q > 0) || !(r < 1)) {
         return never;
     }
     // Each bounce that is followed individually shortens the series. About as many are followed as
@@ -253,16 +254,16 @@ T time_of_rest(const State<T>& begin, const Block<T>& block)
     // -log r per bounce.
     const int digits = std::numeric_limits<T>::digits;
     constexpr int most_bounces = 200'000;
-    for (int bounces = 0; digits * leaving.q_max > bounces * leaving.q; ++bounces) {
+    for (int bounces = 0; digits * post_impact.q_max > bounces * post_impact.q; ++bounces) {
         if (bounces == most_bounces) {
-            return time + sum_on_both_sides(leaving, integral_of_half_periods<theory, T>);
+            return time + sum_on_both_sides(post_impact, integral_of_half_periods<theory, T>);
         }
-        const State<T> upright{.tilt = T(0), .rate = leaving.rate, .side = T(1)};
-        const RockingArc<theory, T> arc(upright, leaving.block, leaving.q);
-        time += arc.time_to_impact() / leaving.block.pace;
-        leaving = leaving.after_impact();
+        const State<T> upright{.tilt = T(0), .rate = post_impact.rate, .side = T(1)};
+        const RockingArc<theory, T> arc(upright, post_impact.block, post_impact.q);
+        time += arc.time_to_impact() / post_impact.block.frequency_parameter;
+        post_impact = post_impact.after_impact();
     }
-    return time + sum_on_both_sides(leaving, sum_of_half_periods<theory, T>);
+    return time + sum_on_both_sides(post_impact, sum_of_half_periods<theory, T>);
 }
 
 } // namespace overturn

@@ -109,7 +109,8 @@ std::optional<LowBounces> bound_of_low_bounces(const Block<double>& block, const
     const std::array<Block<double>, 2> seen{block, block.turned()};
     const bool is_symmetric = block.is_symmetric();
     const auto step_on = [&](const Block<double>& side) -> LowBounceStep {
-        const double frequency = excitation.frequency / (is_symmetric ? 1 : side.pace);
+        const double frequency =
+            excitation.frequency / (is_symmetric ? 1 : side.frequency_parameter);
         return {.duration = step / frequency,
                 .highest = side.slenderness / 4,
                 .k = Equations<theory>::largest_stiffness(most),

@@ -11,8 +11,8 @@ template <Number T>
 struct PulseExcitation {
     PulseMotion<scalar_t<T>> motion;
     T acceleration;     ///< a_p / g [1]; negative: the mirrored pulse
-    T frequency;        ///< omega_p per unit of Block::pace [1]; ForcedStage divides by the pace of
-                        ///< the side. Of a symmetric block, whose pace is 1, Omega = omega_p / p.
+    T frequency;        ///< omega_p over the p of the side, which is 1 for a symmetric block: then
+                        ///< Omega = omega_p / p [1]
     PerLobe<T> uplifts; ///< see uplift_phases() [rad]
 
     /// Ground acceleration over g at these phases [1].

@@ -166,7 +166,8 @@ struct RecordExcitation {
 };
 
 /// The excitation of a block, as seen from its side plus, by a record, for any scalar. scale: the
-/// factor on the record [1]; frequency: samples per time unit, that of Block::pace [1].
+/// factor on the record [1]; frequency: samples per time unit, that of Block::frequency_parameter
+/// [1].
 template <Theory theory, class S>
 RecordExcitation<S, Directions::both> record_excitation(const Accelerogram& record,
                                                         const Block<S>& block, const S& scale,

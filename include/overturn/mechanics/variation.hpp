@@ -68,12 +68,12 @@ Variation<T> variation_over(const T& h, const T& begin, const T& middle, const T
 ///
 ///     tilt+ = -k f tilt-,   rate+ = -f rate- - (f a + k b) tilt- / w
 template <Number T>
-Variation<T> variation_over_impact(const T& rate_ratio, const T& pace, const T& speed,
+Variation<T> variation_over_impact(const T& rate_ratio, const T& frequency_ratio, const T& speed,
                                    const T& before, const T& after)
 {
-    return {.tilt_by_tilt = -(pace * rate_ratio),
+    return {.tilt_by_tilt = -(frequency_ratio * rate_ratio),
             .tilt_by_rate = T(0),
-            .rate_by_tilt = -fma(rate_ratio, before, pace * after) / speed,
+            .rate_by_tilt = -fma(rate_ratio, before, frequency_ratio * after) / speed,
             .rate_by_rate = -rate_ratio};
 }
 

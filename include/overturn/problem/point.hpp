@@ -11,7 +11,7 @@ struct Point {
     /// a, see scaled_pulse(); under records, the factor on the record [1]. Negative: the mirrored
     /// motion, which is the direction of 180 degrees.
     double amplitude;
-    /// Omega, of a block with two different sides omega_p in the unit of its pace; under records,
+    /// Omega, of a block with two different sides omega_p in the unit of its p; under records,
     /// the samples per unit of time [1]
     double frequency;
     /// The index of its record among those of the scene, if there are any. It counts from 0; the

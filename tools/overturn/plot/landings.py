@@ -99,12 +99,12 @@ class Spectrum:
 def land(spectrum):
     """Returns the view near the upright block and the view of all states."""
     sides = spectrum.block, spectrum.block.other
-    paces = [side.pace / sides[0].pace for side in sides]
+    ratios = [side.frequency_parameter / sides[0].frequency_parameter for side in sides]
     fastest = max((np.abs(rate).max(initial=0) for _, rate, _, _ in spectrum.blocks()), default=0)
     near = Landing(NEAR * max(side.slenderness for side in sides),
-                   NEAR * max(side.largest_rate * pace for side, pace in zip(sides, paces)))
-    fastest = max(fastest, *(float(side.inward_rate(angle)) * pace
-                             for side, pace in zip(sides, paces) for angle in (0.0, HALF_TURN)))
+                   NEAR * max(side.largest_rate * ratio for side, ratio in zip(sides, ratios)))
+    fastest = max(fastest, *(float(side.inward_rate(angle)) * ratio
+                             for side, ratio in zip(sides, ratios) for angle in (0.0, HALF_TURN)))
     far = Landing(HALF_TURN, 1.05 * fastest)
     for points in spectrum.blocks():
         near.add(*points)

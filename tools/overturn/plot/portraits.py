@@ -245,7 +245,7 @@ PORTRAITS = {"pendulum": portrait_pendulum, "libration": portrait_libration,
 
 
 def draw(portrait, block):
-    fastest = max(float(side.inward_rate(angle)) * side.pace / block.pace
+    fastest = max(float(side.inward_rate(angle)) * side.frequency_parameter / block.frequency_parameter
                   for side in (block, block.other) for angle in (0.0, reach_of(portrait, block)))
     figure = PORTRAITS[portrait](block, HIGHEST[portrait] * fastest)
     words = ("the orange strips of (a), joined, form that of (b)" if portrait == "pendulum"

@@ -2,14 +2,13 @@
 // by the linearised motion over steps and impacts, and their effect on the margin (Eqs. 11-20).
 #pragma once
 
-#include "overturn/integrate/forced_end.hpp"
-#include "overturn/integrate/rocking_step.hpp"
+#include "overturn/integrate/observers/observer.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
 
 namespace overturn {
 
 template <Theory theory, Number T>
-class MarginError {
+class MarginError : public Observer {
     using S = scalar_t<T>;
     using E = estimate_t<T>;
     using Mask = mask_t<T>;
@@ -18,8 +17,13 @@ public:
     /// Whether it is uncertain that an event has happened, so that the error is unknown.
     const Mask& is_doubtful() const { return doubtful_; }
 
-    /// Resets the errors of lanes at rest, which earlier errors do not affect.
-    void forget(const Mask& lanes) { growth_.forget(lanes); }
+    /// Earlier errors do not affect a block at rest.
+    void pass_event(EventKind kind, const Rocking<T>&, const Mask& lanes)
+    {
+        if (kind == EventKind::rest && any<T>(lanes)) {
+            growth_.forget(lanes);
+        }
+    }
 
     /// Propagates the errors over a step and adds its local errors.
     void pass_step(const Block<T>& block, const auto& excitation, const Rocking<T>& now,
@@ -73,16 +77,15 @@ public:
         const Mask known = share * square_error < speed * speed && 4 * radius < block.slenderness;
         doubtful_ = doubtful_ || (lanes && !(known && now.rate < 0));
         growth_.forget(doubtful_); // it would only grow until it overflows
-        const T pace = block.other.pace / block.pace;
-        growth_.pass(variation_over_impact<E>(estimate_of(block.rate_ratio()), estimate_of(pace),
+        const T ratio = block.other.frequency_parameter / block.frequency_parameter;
+        growth_.pass(variation_over_impact<E>(estimate_of(block.rate_ratio()), estimate_of(ratio),
                                               estimate_of(speed), estimate_of(before),
                                               estimate_of(after)),
                      lanes);
     }
 
-    /// The end of the lanes, at `now`, with its error and whether its verdict is in doubt.
-    ForcedEnd<T> at_end(const Block<T>& block, const auto& excitation, const Rocking<T>& now,
-                        ForcedEnd<T> end) const
+    void complete(ForcedEnd<T>& end, const Block<T>& block, const Block<T>&, const auto& excitation,
+                  const Rocking<T>& now) const
     {
         const Mask& fell = end.fell;
         const T radius = bound(1, 0);
@@ -119,7 +122,6 @@ public:
             doubtful_ || end.is_stopped() || either || barely || !known || !(error == error);
         end.error = select<T>(unknown, T(std::numeric_limits<S>::infinity()), error);
         end.in_doubt = !(end.error < abs(margin_of<theory>(end, block)));
-        return end;
     }
 
 private:

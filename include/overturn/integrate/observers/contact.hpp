@@ -27,10 +27,10 @@ struct StepEnds {
     T end_rate;
 };
 
-/// A step as the contact sees it. The functions return MovingBlock: at its beginning, at its end
+/// A step for the contact. The functions return MovingBlock: at its beginning, at its end
 /// and at a share of it; the tilt at a share of it.
 template <Number T, class Begin, class End, class At, class TiltAt>
-struct SeenStep {
+struct ObservedStep {
     T duration;     ///< with respect to tau
     T push_slope;   ///< bound of the derivative of the push, if it is piecewise linear
     bool is_joined; ///< the force at its beginning is that at the end of the step before it
@@ -43,20 +43,20 @@ struct SeenStep {
 /// Follows the contact. A block beyond alpha that does not come back has overturned, so that what
 /// its contact bears there counts only once it comes back.
 template <Number T>
-class ContactWatch {
+class ContactObserver {
     using S = scalar_t<T>;
     using Mask = mask_t<T>;
     using Force = ContactForce<T>;
 
 public:
-    explicit ContactWatch(const ContactSides<T>& sides)
+    explicit ContactObserver(const ContactSides<T>& sides)
         : sides_(sides), inertia_(greater<T>(sides.plus.inertia, sides.minus.inertia))
     {
         kept_ = demand_of(force_at_rest(sides.plus, T(0), T(0))); // before the motion
     }
 
     /// The side of the block has changed. ground: see fourth_derivative_of_force().
-    void see_side(const T& side, const T& slenderness, const std::array<T, 5>& ground)
+    void set_side(const T& side, const T& slenderness, const std::array<T, 5>& ground)
     {
         side_ = sides_.seen_from(side);
         slenderness_ = slenderness;
@@ -75,7 +75,7 @@ public:
     /// A trial of a step in the active lanes, which was taken in `lanes`. halvings: of a step that
     /// may have an extreme, before that is searched for.
     template <int halvings>
-    void see_step(const StepEnds<T>& ends, const Mask& active, const Mask& lanes, const auto& step)
+    void pass_step(const StepEnds<T>& ends, const Mask& active, const Mask& lanes, const auto& step)
     {
         const bool is_joined = is_joined_ && step.is_joined;
         const Force first = is_joined ? last_ : force_of(step.begin());
@@ -90,15 +90,15 @@ public:
         const Mask passes = lanes && begins_beyond != ends_beyond;
         const Part whole{first, last, T(0), T(1), step.duration, margin_of(ends, lanes, step)};
         if (any<T>(passes)) {
-            see_passing<halvings>(whole, lanes, passes, begins_beyond, step);
+            pass_alpha<halvings>(whole, lanes, passes, begins_beyond, step);
         } else {
             include(demand_of(last), lanes, begins_beyond);
-            see_part<halvings>(whole, lanes, begins_beyond, step);
+            include_part<halvings>(whole, lanes, begins_beyond, step);
         }
     }
 
     /// The block rests at times when it must bear this.
-    void see_rest(const ContactDemand<T>& demand, const Mask& lanes)
+    void pass_rest(const ContactDemand<T>& demand, const Mask& lanes)
     {
         kept_.include(demand, lanes);
     }
@@ -143,7 +143,9 @@ private:
     void include(const ContactDemand<T>& demand, const Mask& lanes, const Mask& beyond)
     {
         kept_.include(demand, lanes && !beyond);
-        beyond_.include(demand, lanes && beyond);
+        if (any<T>(beyond)) {
+            beyond_.include(demand, lanes && beyond);
+        }
     }
 
     /// A force over a step of length h is the cubic through its values and slopes at both ends plus
@@ -169,8 +171,8 @@ private:
 
     /// A step within which the block passes alpha in the lanes `passes`.
     template <int halvings>
-    [[gnu::noinline]] void see_passing(const Part& whole, const Mask& lanes, const Mask& passes,
-                                       const Mask& begins_beyond, const auto& step)
+    [[gnu::noinline]] void pass_alpha(const Part& whole, const Mask& lanes, const Mask& passes,
+                                      const Mask& begins_beyond, const auto& step)
     {
         const auto height_at = [&](const T& share) -> T {
             return step.tilt_at(share) - slenderness_;
@@ -185,19 +187,19 @@ private:
                 first, last, from, width, whole.duration * width, whole.margin * (square * square)};
         };
         include(demand_of(there), lanes, begins_beyond);
-        see_part<halvings>(part(whole.first, there, T(0), pass), lanes, begins_beyond, step);
+        include_part<halvings>(part(whole.first, there, T(0), pass), lanes, begins_beyond, step);
         // A block that comes back had to bear what it bore beyond alpha.
         kept_.include(beyond_, passes && begins_beyond);
         beyond_.forget(passes);
         const Mask beyond_now = passes && !begins_beyond;
         include(demand_of(there), passes, beyond_now);
         include(demand_of(whole.last), passes, beyond_now);
-        see_part<halvings>(part(there, whole.last, pass, rest), passes, beyond_now, step);
+        include_part<halvings>(part(there, whole.last, pass, rest), passes, beyond_now, step);
     }
 
     template <int halvings>
-    [[gnu::always_inline]] void see_part(const Part& part, const Mask& lanes, const Mask& beyond,
-                                         const auto& step)
+    [[gnu::always_inline]] void include_part(const Part& part, const Mask& lanes,
+                                             const Mask& beyond, const auto& step)
     {
         const T most = greater<T>(kept_.friction, beyond_.friction);
         const T least = lesser<T>(kept_.normal, beyond_.normal);
@@ -229,10 +231,10 @@ private:
         include(demand_of(there), lanes, beyond);
         const T duration = 0.5 * part.duration;
         const T margin = part.margin * T(S(1) / 16);
-        see_part<halvings - 1>({part.first, there, part.from, half, duration, margin}, lanes,
-                               beyond, step);
-        see_part<halvings - 1>({there, part.last, middle, half, duration, margin}, lanes, beyond,
-                               step);
+        include_part<halvings - 1>({part.first, there, part.from, half, duration, margin}, lanes,
+                                   beyond, step);
+        include_part<halvings - 1>({there, part.last, middle, half, duration, margin}, lanes,
+                                   beyond, step);
     }
 
     /// Finds the largest friction and the smallest normal force within a part.
