@@ -14,6 +14,7 @@ namespace {
 std::vector<FieldFlag> regions(bool with_no_flip)
 {
     std::vector<FieldFlag> flags;
+    flags.reserve(region_names.size() + 3);
     for (std::size_t code = 0; code < region_names.size(); ++code) {
         flags.push_back({std::uint32_t(code), region_names[code]});
     }
