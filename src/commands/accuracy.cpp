@@ -3,7 +3,7 @@
 #include "report/job.hpp"
 #include "report/print.hpp"
 
-#include "overturn/file/study_files.hpp"
+#include "overturn/file/history_and_accuracy_files.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/text/error.hpp"
 

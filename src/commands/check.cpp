@@ -2,7 +2,7 @@
 #include "report/job.hpp"
 #include "report/print.hpp"
 
-#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/result_writer.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/text/quoting.hpp"
@@ -132,7 +132,7 @@ void print_size(const Job& job)
         print_row("field", fmt::format("{}, {}", name_of(field),
                                        human_bytes(points * double(bytes_per_point(field)))));
     }
-    print_row("file", human_bytes(double(spectrum_file_bytes(job))));
+    print_row("file", human_bytes(double(result_bytes(job))));
 }
 
 } // namespace

@@ -5,7 +5,7 @@
 #include "report/job.hpp"
 #include "report/print.hpp"
 
-#include "overturn/file/study_files.hpp"
+#include "overturn/file/history_and_accuracy_files.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/job/schema.hpp"
 #include "overturn/sweep/kernel.hpp"

@@ -1,7 +1,7 @@
 #include "commands.hpp"
 #include "guarded_reading.hpp"
 #include "report/print.hpp"
-#include "report/result.hpp"
+#include "report/result_remarks.hpp"
 
 #include "overturn/file/stored_result.hpp"
 #include "overturn/text/quoting.hpp"

@@ -4,9 +4,9 @@
 #include "report/print.hpp"
 
 #include "overturn/farm/stop_signals.hpp"
+#include "overturn/file/history_and_accuracy_files.hpp"
 #include "overturn/file/provenance.hpp"
-#include "overturn/file/spectrum_file.hpp"
-#include "overturn/file/study_files.hpp"
+#include "overturn/file/result_writer.hpp"
 
 #include <fmt/format.h>
 
@@ -67,12 +67,12 @@ std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const st
     }
     expect_place_for_sidecar(path);
     if (!damaged) {
-        const auto bytes = double(spectrum_file_bytes(job));
+        const auto bytes = double(result_bytes(job));
         constexpr double made_at_once = 1e8;
         if (bytes > made_at_once) {
             print_line(fmt::format("{}: creating a file of {}", path, human_bytes(bytes)));
         }
-        create_spectrum_file(path, job, [] { expect_no_stop(" before the file was created"); });
+        create_result(path, job, [] { expect_no_stop(" before the file was created"); });
         damaged.emplace();
     }
     return damaged;

@@ -1,19 +1,20 @@
-// The map of the code: open a session, read the job, open the file, hand out the missing tiles,
-// compute and write each of them.
+// The map of the code: open a session (farm), read the job (job, record), create or continue the
+// file (file), hand out the missing tiles (farm), compute each of them (sweep, with the kernels of
+// integrate and mechanics) and write it (file).
 #include "commands.hpp"
 #include "kernel_choice.hpp"
 #include "prepare_output.hpp"
 #include "report/job.hpp"
-#include "report/json.hpp"
+#include "report/json_outputs.hpp"
 #include "report/print.hpp"
 #include "report/progress.hpp"
-#include "report/result.hpp"
+#include "report/result_remarks.hpp"
 
 #include "overturn/farm/farm.hpp"
 #include "overturn/farm/stop_signals.hpp"
 #include "overturn/farm/tile_order.hpp"
 #include "overturn/file/provenance.hpp"
-#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/result_writer.hpp"
 #include "overturn/file/stored_result.hpp"
 #include "overturn/problem/problem_bytes.hpp"
 #include "overturn/sweep/compute_tile.hpp"
@@ -78,8 +79,8 @@ std::string end_line(const Task& task, const FarmReport& report, double seconds)
         percent * report.all.compute_seconds, percent * report.all.write_seconds);
 }
 
-FarmReport compute_tiles(const Task& task, const std::vector<std::int64_t>& missing,
-                         SpectrumFile& file)
+FarmReport farm_tiles(const Task& task, const std::vector<std::int64_t>& missing,
+                      ResultWriter& file)
 {
     const std::int64_t tiles_before = task.tiling.size() - std::int64_t(missing.size());
     Progress progress(task.items_in(tiles_before), task.items.count, task.items.name);
@@ -126,7 +127,7 @@ int report_end(const Task& task, const FarmReport& report, double seconds)
     return exit_code::complete;
 }
 
-int compute_missing_tiles(const Task& task)
+int run_on_this_rank(const Task& task)
 {
     // The path on rank 0, because other ranks may have been started in other working directories.
     const std::string path =
@@ -141,7 +142,7 @@ int compute_missing_tiles(const Task& task)
         }
         return exit_code::output;
     }
-    SpectrumFile file(path, task.session.communicator(), task.problem, task.options.durable);
+    ResultWriter file(path, task.session.communicator(), task.problem, task.options.durable);
     std::vector<std::int64_t> missing;
     if (task.is_rank_0()) {
         for (const std::int64_t number : task.damaged) {
@@ -150,7 +151,7 @@ int compute_missing_tiles(const Task& task)
         missing = file.missing_tiles();
         print_line(start_line(task, task.tiling.size() - std::int64_t(missing.size())));
     }
-    const FarmReport report = compute_tiles(task, missing, file);
+    const FarmReport report = farm_tiles(task, missing, file);
     file.close();
     int code = exit_code::complete;
     if (task.is_rank_0()) {
@@ -204,7 +205,7 @@ int run(const RunOptions& options)
     }
     try {
         const std::string bytes = session.from_rank_0(job ? bytes_of(job->problem) : "");
-        return compute_missing_tiles({session, problem_of(bytes), path, options, start, damaged});
+        return run_on_this_rank({session, problem_of(bytes), path, options, start, damaged});
     } catch (const std::exception& error) {
         if (session.size() == 1) {
             throw;

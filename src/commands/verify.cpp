@@ -1,6 +1,6 @@
 #include "commands.hpp"
 #include "guarded_reading.hpp"
-#include "report/result.hpp"
+#include "report/result_remarks.hpp"
 
 #include "overturn/file/stored_result.hpp"
 #include "overturn/text/error.hpp"

@@ -4,7 +4,7 @@
 #include "working_file.hpp"
 
 #include "overturn/file/provenance.hpp"
-#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/result_writer.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/text/error.hpp"
 #include "overturn/text/mapped.hpp"

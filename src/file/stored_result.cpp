@@ -6,7 +6,7 @@
 #include "working_file.hpp"
 
 #include "overturn/file/provenance.hpp"
-#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/result_writer.hpp"
 #include "overturn/mechanics/region.hpp"
 #include "overturn/text/error.hpp"
 #include "overturn/text/is_one_of.hpp"

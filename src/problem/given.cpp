@@ -1,6 +1,6 @@
 #include "overturn/problem/given.hpp"
 
-#include "lengths.hpp"
+#include "check_lengths.hpp"
 
 #include "overturn/problem/coordinates.hpp"
 

@@ -4,7 +4,7 @@
 #include "support/scratch_folder.hpp"
 
 #include "overturn/file/provenance.hpp"
-#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/result_writer.hpp"
 #include "overturn/text/error.hpp"
 
 #include <fmt/ranges.h>
@@ -39,7 +39,7 @@ hdf5::Handle open_to_change(const std::string& path)
 
 class ExistingResult : public testing::Test {
 protected:
-    void create() { create_spectrum_file(path, job); }
+    void create() { create_result(path, job); }
 
     /// Overwrites a global attribute, as written by another program of the same format.
     template <class Value>

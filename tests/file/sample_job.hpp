@@ -1,7 +1,7 @@
 // A small job with four axes and every field, and artificial values for its tiles.
 #pragma once
 
-#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/result_writer.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "support/given_values.hpp"
@@ -78,7 +78,7 @@ inline TileFields sample_values(const Job& job, const Tile& tile)
     return result;
 }
 
-inline void write_tiles(SpectrumFile& file, const Job& job,
+inline void write_tiles(ResultWriter& file, const Job& job,
                         const std::vector<std::int64_t>& numbers)
 {
     const Tiling tiling = tiling_of(job.problem);
@@ -98,8 +98,8 @@ inline std::vector<std::int64_t> first_tiles(std::int64_t count)
 /// Creates the file and writes the first tiles.
 inline void write_spectrum(const std::string& path, const Job& job, std::int64_t tiles)
 {
-    create_spectrum_file(path, job);
-    SpectrumFile file(path, MPI_COMM_SELF, job.problem);
+    create_result(path, job);
+    ResultWriter file(path, MPI_COMM_SELF, job.problem);
     write_tiles(file, job, first_tiles(tiles));
     file.close();
 }

@@ -1,7 +1,7 @@
 #include "file/sample_job.hpp"
 #include "support/scratch_folder.hpp"
 
-#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/result_writer.hpp"
 #include "overturn/file/stored_result.hpp"
 #include "overturn/text/error.hpp"
 

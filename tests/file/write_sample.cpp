@@ -3,7 +3,7 @@
 // SIGKILL.
 #include "file/sample_job.hpp"
 
-#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/result_writer.hpp"
 #include "overturn/text/error.hpp"
 
 #include <csignal>
@@ -41,10 +41,10 @@ void write_sample(const std::string& path, Stop stop)
     const Job job = job_with_long_text();
     const Tiling tiling = tiling_of(job.problem);
     if (rank == 0 && !existing_result(path, job)) {
-        create_spectrum_file(path, job);
+        create_result(path, job);
     }
     MPI_Barrier(MPI_COMM_WORLD);
-    SpectrumFile file(path, MPI_COMM_WORLD, job.problem);
+    ResultWriter file(path, MPI_COMM_WORLD, job.problem);
     // All ranks read the list of missing tiles before the first of them writes.
     const std::vector<std::int64_t> missing = file.missing_tiles();
     MPI_Barrier(MPI_COMM_WORLD);

@@ -1,6 +1,6 @@
 #include "altered_result_file.hpp"
 
-#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/result_writer.hpp"
 #include "support/given_values.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -226,7 +226,7 @@ const std::string& file_to_alter()
         const ScratchFolder folder;
         const std::string path = folder / "as_written.h5";
         const Job job = job_to_alter();
-        create_spectrum_file(path, job);
+        create_result(path, job);
         return bytes_of(path);
     }();
     return bytes;

@@ -1,6 +1,6 @@
 #include "hostile_input.hpp"
 
-#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/result_writer.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/text/error.hpp"
 #include "support/scratch_folder.hpp"
@@ -40,8 +40,7 @@ void use(const Job& job, const std::string& path)
     const Problem& problem = job.problem;
     demand(problem.grid.points() > 0 && tiling_of(problem).size() > 0,
            "an accepted job has no points");
-    demand(spectrum_file_bytes(job) > double(problem.grid.points()),
-           "a file is smaller than its values");
+    demand(result_bytes(job) > double(problem.grid.points()), "a file is smaller than its values");
     if (const Pulse* pulse = problem.scene.pulse()) {
         cut_by_window(*pulse);
     }

@@ -2,7 +2,7 @@
 
 #include "altered_result_file.hpp"
 
-#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/result_writer.hpp"
 #include "overturn/file/stored_result.hpp"
 #include "overturn/text/error.hpp"
 #include "support/scratch_folder.hpp"

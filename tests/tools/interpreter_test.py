@@ -33,7 +33,8 @@ class TestAPythonWithoutTheModules(InOneFolder):
 
     @unittest.skipUnless(all(map(system_has, ("h5py", "matplotlib"))), f"{SYSTEM} lacks them, too")
     def test_is_replaced_by_the_systems_python(self):
-        for name in NAMES:
+        one_of = {(TOOLS / name).read_text(): name for name in NAMES}  # most have the same text
+        for name in one_of.values():
             run = self.run_here(TOOLS / name, "--help")
             self.assertEqual(run.returncode, 0, run.stderr)
             self.assertIn(f"usage: {name.name} ", run.stdout)

@@ -21,7 +21,7 @@ from overturn.captions import subtitle
 from overturn.motion_words import FLOOR_MEASURES, worded
 from overturn.plot import risks
 from overturn.result_file import Result
-from overturn.spectrum_file import Plane
+from overturn.spectrum_planes import Plane
 from overturn.units import name_axes
 
 FLOOR = {"motion_of": "floor"}

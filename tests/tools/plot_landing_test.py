@@ -11,7 +11,7 @@ import numpy as np
 import plot_spectrum_test  # adds the package to the path
 from plot_spectrum_test import F_MINUS, NOT_COMPUTED, S, S_PLUS, U0_MINUS, Picture, add_field
 from overturn.region_labels import Label, connected, off_the_edge, pieces, roomiest_cell
-from overturn.spectrum_file import Axis
+from overturn.spectrum_planes import Axis
 
 
 class LandingPicture(Picture):

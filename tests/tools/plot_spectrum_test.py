@@ -18,7 +18,7 @@ from overturn.choice import sheet_of
 from overturn.plot import spectra
 from overturn.regions import REGIONS
 from overturn.result_file import SPECTRUM, open_result
-from overturn.spectrum_file import Axis, Plane
+from overturn.spectrum_planes import Axis, Plane
 from overturn.ticks import log_ticks
 from overturn.units import axes_of_plane
 

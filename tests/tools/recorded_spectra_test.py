@@ -13,7 +13,7 @@ from plot_spectrum_test import (F_MINUS, NOT_COMPUTED, S, UNDECIDED, Picture, ad
                                 where, write_result)
 from tool import JOBS  # adds the package to the path
 from overturn.result_file import SPECTRUM, open_result
-from overturn.spectrum_file import Plane
+from overturn.spectrum_planes import Plane
 from overturn.units import name_axes
 
 FREE_FALL = 16

@@ -20,7 +20,7 @@ from overturn.plot import boundaries, histories
 from overturn.choice import axes_of
 from overturn.plot import spectra
 from overturn.result_file import BOUNDARY, HISTORY, SPECTRUM, open_result
-from overturn.spectrum_file import Axis, Plane
+from overturn.spectrum_planes import Axis, Plane
 
 P = np.sqrt(3 * 9.81 / (4 * np.hypot(0.3, 0.9)))  # [1/s]
 PHYSICAL = ("--units", "physical")

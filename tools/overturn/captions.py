@@ -6,7 +6,7 @@ import pathlib
 
 import numpy as np
 from overturn.motion_words import is_of_floor, worded
-from overturn.spectrum_file import JOB, PHYSICAL
+from overturn.spectrum_planes import JOB, PHYSICAL
 from overturn.tables import RATES, SIZES, STRENGTHS
 
 PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 from overturn.captions import value_text
-from overturn.spectrum_file import Plane
+from overturn.spectrum_planes import Plane
 from overturn.tables import STRENGTHS
 from overturn.tool import USAGE, ToolError
 

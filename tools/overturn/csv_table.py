@@ -12,7 +12,7 @@ from overturn.choice import add_choice_arguments, chosen
 from overturn.motion_words import VARIABLES, column_named
 from overturn.output_file import BEGINNING, new_file
 from overturn.result_file import HISTORY, SPECTRUM, STUDY, damage_reported, open_result
-from overturn.spectrum_file import COUNTED
+from overturn.spectrum_planes import COUNTED
 from overturn.tool import USAGE, ToolError, parse_with_output, parser_of
 
 EXAMPLE = """\

@@ -8,7 +8,7 @@ from overturn.captions import PULSE_NUMBERS, ground_word, is_recorded
 from overturn.choice import axes_of
 from overturn.regions import SAFE, UNSAFE
 from overturn.result_file import BOUNDARY, open_result
-from overturn.spectrum_file import PHYSICAL, RECIPROCALS, Plane
+from overturn.spectrum_planes import PHYSICAL, RECIPROCALS, Plane
 from overturn.tool import ToolError
 from overturn.units import NEEDING_A_SIZE, axis_of, expect_size, name_of_flips
 

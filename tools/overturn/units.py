@@ -3,7 +3,7 @@
 import numpy as np
 from overturn.captions import escaped, is_linear, is_recorded, names_of
 from overturn.motion_words import worded
-from overturn.spectrum_file import COUNTED, JOB, LOG, PHYSICAL, Axis, scanned_quantity
+from overturn.spectrum_planes import COUNTED, JOB, LOG, PHYSICAL, Axis, scanned_quantity
 from overturn.tool import USAGE, ToolError
 
 LABELS = {"frequency": r"pulse frequency  $\omega_p\,/\,p$",

@@ -3,7 +3,7 @@
 
 #include "overturn/integrate/first_root.hpp"
 #include "overturn/integrate/power_series.hpp"
-#include "overturn/integrate/rocking_step.hpp"
+#include "overturn/integrate/stepper_types.hpp"
 #include "overturn/mechanics/rocking_series.hpp"
 
 namespace overturn {

@@ -2,7 +2,7 @@
 // The polynomial is not sampled but bounded by its Bernstein coefficients, so no root is missed.
 #pragma once
 
-#include "overturn/integrate/step.hpp"
+#include "overturn/integrate/runge_kutta_step.hpp"
 #include "overturn/number/elementary.hpp"
 
 #include <limits>

@@ -3,7 +3,7 @@
 // Lanes run in lockstep, each with its own step size; a finished lane is frozen.
 #pragma once
 
-#include "overturn/integrate/observers/contact.hpp"
+#include "overturn/integrate/observers/contact_observer.hpp"
 #include "overturn/integrate/observers/observers.hpp"
 #include "overturn/integrate/record_stepper.hpp"
 #include "overturn/integrate/runge_kutta_stepper.hpp"

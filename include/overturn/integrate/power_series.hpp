@@ -1,7 +1,7 @@
 // Values and bounds of power series over a step.
 #pragma once
 
-#include "overturn/integrate/step.hpp"
+#include "overturn/integrate/runge_kutta_step.hpp"
 
 namespace overturn {
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "overturn/integrate/first_event.hpp"
-#include "overturn/integrate/observers/contact.hpp"
+#include "overturn/integrate/observers/contact_observer.hpp"
 #include "overturn/integrate/taylor_errors.hpp"
 #include "overturn/mechanics/contact.hpp"
 #include "overturn/mechanics/record_excitation.hpp"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "overturn/integrate/first_event.hpp"
-#include "overturn/integrate/observers/contact.hpp"
+#include "overturn/integrate/observers/contact_observer.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
 
 namespace overturn {

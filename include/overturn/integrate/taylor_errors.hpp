@@ -2,7 +2,7 @@
 #pragma once
 
 #include "overturn/integrate/power_series.hpp"
-#include "overturn/integrate/rocking_step.hpp"
+#include "overturn/integrate/stepper_types.hpp"
 #include "overturn/mechanics/theory/theories.hpp"
 
 namespace overturn {

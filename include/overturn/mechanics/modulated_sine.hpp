@@ -81,7 +81,7 @@ struct ModulatedSine {
     {
         const S towards_peak = value(flank.peak) < 0 ? S(-amplitude) : amplitude;
         const auto excess = [&](const S& phase) -> S { return towards_peak * value(phase) - 1; };
-        return where_it_reaches_zero<S>(excess, flank.foot, flank.peak);
+        return where_it_reaches_zero(excess, flank.foot, flank.peak);
     }
 
     /// The extremum close to this phase, by Newton's method [rad].

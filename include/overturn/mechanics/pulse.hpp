@@ -8,8 +8,10 @@
 #include "overturn/number/elementary.hpp"
 #include "overturn/number/number.hpp"
 
+#include <boost/math/tools/toms748_solve.hpp>
+
 #include <array>
-#include <functional>
+#include <cstdint>
 #include <limits>
 #include <type_traits>
 
@@ -101,10 +103,16 @@ struct Triangular {
     }
 };
 
-/// The phase between `low` and `high` at which an increasing function reaches 0. S: double or
-/// Digits50.
-template <class S>
-S where_it_reaches_zero(const std::function<S(const S&)>& increasing, const S& low, const S& high);
+/// The phase between `low` and `high` at which an increasing function reaches 0.
+template <class S, class Function>
+S where_it_reaches_zero(const Function& increasing, const S& low, const S& high)
+{
+    std::uintmax_t iterations = 200; // bisection needs one per bit of S
+    const auto bracket = boost::math::tools::toms748_solve(
+        increasing, low, high,
+        boost::math::tools::eps_tolerance<S>(std::numeric_limits<S>::digits - 2), iterations);
+    return bracket.second; // the upper end, where the function is not below 0
+}
 
 /// A wavelet, with one formula for all of its lobes.
 template <class Wavelet>
@@ -115,7 +123,7 @@ struct RickerWavelet {
     {
         const S level = 1 / amplitude;
         const auto excess = [&](const S& phase) -> S { return abs(Wavelet::value(phase)) - level; };
-        return where_it_reaches_zero<S>(excess, flank.foot, flank.peak);
+        return where_it_reaches_zero(excess, flank.foot, flank.peak);
     }
 };
 

@@ -2,7 +2,7 @@
 // free stage in closed form until the block lies flat, comes to rest, or the history ends.
 #pragma once
 
-#include "overturn/integrate/observers/event_kind.hpp"
+#include "overturn/integrate/event_kind.hpp"
 #include "overturn/mechanics/region.hpp"
 #include "overturn/problem/point.hpp"
 #include "overturn/problem/scene.hpp"

@@ -2,7 +2,7 @@
 
 #include "job.hpp"
 #include "print.hpp"
-#include "verdict.hpp"
+#include "topple_ranges.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 import numpy as np
 from overturn.captions import escaped, told_apart
 from overturn.plot.headings import LINE, POINTS, width_of
-from overturn.spectrum_file import BANDS
+from overturn.spectrum_planes import BANDS
 from overturn.ticks import length_of, name_ticks
 
 NUMBERS, SMALLEST = 10, 5  # font sizes [points]
@@ -41,7 +41,7 @@ def name_bands(axis, bands):
 
 
 def set_axes(panel, across, up):
-    """Sets scales, limits and ticks of a panel from two Axis of spectrum_file. Bands have a tick each: the distances of
+    """Sets scales, limits and ticks of a panel from two Axis of spectrum_planes. Bands have a tick each: the distances of
     their values have no meaning."""
     for set_scale, axis in ((panel.set_xscale, across), (panel.set_yscale, up)):
         if axis.scale == BANDS:

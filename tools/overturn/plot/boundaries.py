@@ -22,7 +22,7 @@ from overturn.plot.bands import set_axes
 from overturn.plot.headings import Heading
 from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.result_file import BOUNDARY, open_result
-from overturn.spectrum_file import BANDS, Axis
+from overturn.spectrum_planes import BANDS, Axis
 from overturn.tool import parse_with_picture, parser_of
 from overturn.units import add_units_argument, axis_of, expect_size, name_axes, name_of_flips, scan_of
 

@@ -17,7 +17,7 @@ from overturn.output_file import save
 from overturn.plot.headings import Heading
 from overturn.regions import REGIONS, UNDECIDED, meaning_of
 from overturn.result_file import HISTORY, damage_reported, open_result
-from overturn.spectrum_file import EQUIVALENTS, JOB, PHYSICAL
+from overturn.spectrum_planes import EQUIVALENTS, JOB, PHYSICAL
 from overturn.tables import RATES, SIZES, STRENGTHS
 from overturn.ticks import name_ticks
 from overturn.tool import ToolError, parse_with_picture, parser_of

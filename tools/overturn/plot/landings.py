@@ -13,7 +13,7 @@ from overturn.plot.spectra import cover, hatch
 from overturn.region_labels import add_label_argument, pieces, thinned, write_label
 from overturn.regions import APART, BETWEEN, LEFT_STANDING, NOT_COMPUTED, REGIONS
 from overturn.result_file import SPECTRUM, open_result
-from overturn.spectrum_file import without_gaps
+from overturn.spectrum_planes import without_gaps
 from overturn.tool import parse_with_picture, parser_of
 from overturn.units import axes_of_plane, name_axes
 

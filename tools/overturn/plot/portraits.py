@@ -8,7 +8,7 @@ from overturn.phase_space import (HALF_TURN, FreeBlock, block_of, draw_boundarie
 from overturn.region_labels import pieces, thinned, write_label
 from overturn.regions import REGIONS
 from overturn.result_file import SPECTRUM, open_result
-from overturn.spectrum_file import Plane
+from overturn.spectrum_planes import Plane
 from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
 
 EXAMPLE = """\

@@ -2,9 +2,9 @@
 // their hooks; observers.hpp lists them.
 #pragma once
 
+#include "overturn/integrate/event_kind.hpp"
 #include "overturn/integrate/forced_end.hpp"
-#include "overturn/integrate/observers/event_kind.hpp"
-#include "overturn/integrate/rocking_step.hpp"
+#include "overturn/integrate/stepper_types.hpp"
 
 namespace overturn {
 

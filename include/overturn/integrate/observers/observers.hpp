@@ -9,7 +9,7 @@
 namespace overturn {
 
 /// Those of the outputs; the others take no time and no space. The contact has an observer of its
-/// own kind, which sees every trial of a step, see contact.hpp.
+/// own kind, which sees every trial of a step, see contact_observer.hpp.
 template <Outputs outputs, Theory theory, Number T, bool is_recorded>
 struct Observers {
     [[no_unique_address]] OnlyIf<outputs.impacts, ImpactCount<T>> impacts;

@@ -1,5 +1,5 @@
 #include "overturn/integrate/first_root.hpp"
-#include "overturn/integrate/step.hpp"
+#include "overturn/integrate/runge_kutta_step.hpp"
 #include "overturn/number/digits50.hpp"
 #include "support/observed_order.hpp"
 #include "support/untrapped_floating_point.hpp"

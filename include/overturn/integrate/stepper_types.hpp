@@ -8,7 +8,7 @@
 
 #include "overturn/integrate/error_growth.hpp"
 #include "overturn/integrate/outputs.hpp"
-#include "overturn/integrate/step.hpp"
+#include "overturn/integrate/runge_kutta_step.hpp"
 
 #include <limits>
 #include <type_traits>

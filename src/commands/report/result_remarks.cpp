@@ -1,4 +1,4 @@
-#include "result.hpp"
+#include "result_remarks.hpp"
 
 #include "overturn/text/quoting.hpp"
 

@@ -1,4 +1,4 @@
-#include "lengths.hpp"
+#include "check_lengths.hpp"
 
 #include "overturn/text/mapped.hpp"
 

@@ -1,4 +1,4 @@
-#include "verdict.hpp"
+#include "topple_ranges.hpp"
 
 #include "print.hpp"
 

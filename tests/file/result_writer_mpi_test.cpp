@@ -3,7 +3,7 @@
 #include "support/refusal.hpp"
 #include "support/scratch_folder_mpi.hpp"
 
-#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/result_writer.hpp"
 #include "overturn/file/stored_result.hpp"
 #include "overturn/text/error.hpp"
 
@@ -30,7 +30,7 @@ protected:
     void create(const std::string& path) const
     {
         if (rank == 0) {
-            create_spectrum_file(path, job);
+            create_result(path, job);
         }
         MPI_Barrier(MPI_COMM_WORLD);
     }
@@ -56,7 +56,7 @@ TEST_F(SpectrumFileOnRanks, HasTheSameBytesForAnyDistributionAndOrderOfTiles)
 {
     const std::string expected = bytes_from_one_rank(folder / "one.h5");
     create(folder / "many.h5");
-    SpectrumFile file(folder / "many.h5", MPI_COMM_WORLD, job.problem);
+    ResultWriter file(folder / "many.h5", MPI_COMM_WORLD, job.problem);
     // Unequal shares, from the last tile to the first: rank 0 writes half of them.
     std::vector<std::int64_t> mine;
     for (std::int64_t number = tiling.size() - 1; number >= 0; --number) {
@@ -74,7 +74,7 @@ TEST_F(SpectrumFileOnRanks, ListsTheTilesThatWereNotWritten)
 {
     create(folder / "a.h5");
     {
-        SpectrumFile file(folder / "a.h5", MPI_COMM_WORLD, job.problem);
+        ResultWriter file(folder / "a.h5", MPI_COMM_WORLD, job.problem);
         if (rank == ranks - 1) {
             std::vector<std::int64_t> numbers = first_tiles(tiling.size());
             numbers.erase(numbers.begin() + 3);
@@ -84,7 +84,7 @@ TEST_F(SpectrumFileOnRanks, ListsTheTilesThatWereNotWritten)
         file.close();
     }
     EXPECT_EQ(existing_result(folder / "a.h5", job).value().tiles().tiles_done, tiling.size() - 2);
-    SpectrumFile file(folder / "a.h5", MPI_COMM_WORLD, job.problem);
+    ResultWriter file(folder / "a.h5", MPI_COMM_WORLD, job.problem);
     if (rank == 0) {
         EXPECT_THAT(file.missing_tiles(), ElementsAre(3, tiling.size() - 1));
     }
@@ -96,7 +96,7 @@ TEST_F(SpectrumFileOnRanks, HasTheSameBytesWhenFinishedLater)
     const std::string expected = bytes_from_one_rank(folder / "one.h5");
     create(folder / "resumed.h5");
     for (const std::int64_t remainder : {1, 0}) {
-        SpectrumFile file(folder / "resumed.h5", MPI_COMM_WORLD, job.problem);
+        ResultWriter file(folder / "resumed.h5", MPI_COMM_WORLD, job.problem);
         if (rank == 0) {
             std::vector<std::int64_t> numbers = file.missing_tiles();
             std::erase_if(numbers, [&](auto number) { return number % 2 != remainder; });
@@ -111,7 +111,7 @@ TEST_F(SpectrumFileOnRanks, HasTheBytesOfANewFileAfterAllTilesAreCleared)
 {
     create(folder / "new.h5");
     bytes_from_one_rank(folder / "a.h5");
-    SpectrumFile file(folder / "a.h5", MPI_COMM_WORLD, job.problem);
+    ResultWriter file(folder / "a.h5", MPI_COMM_WORLD, job.problem);
     if (rank == ranks - 1) {
         for (const std::int64_t number : first_tiles(tiling.size())) {
             file.reset(tiling[number]);
@@ -124,7 +124,7 @@ TEST_F(SpectrumFileOnRanks, HasTheBytesOfANewFileAfterAllTilesAreCleared)
 TEST_F(SpectrumFileOnRanks, CannotBeOpenedIfItDoesNotExist)
 {
     EXPECT_THAT(refusal(exit_code::output,
-                        [&] { SpectrumFile(folder / "nowhere.h5", MPI_COMM_WORLD, job.problem); }),
+                        [&] { ResultWriter(folder / "nowhere.h5", MPI_COMM_WORLD, job.problem); }),
                 HasSubstr("cannot open"));
 }
 
@@ -156,8 +156,8 @@ TEST_F(SpectrumFileOnRanks, DiffersBetweenRanksIfOneHasACopyOrNoFile)
 TEST_F(SpectrumFileOnRanks, ReportsTheTileAndTheReasonIfAWriteFails)
 {
     const std::string path = folder / ("limited" + std::to_string(rank));
-    create_spectrum_file(path, job);
-    SpectrumFile file(path, MPI_COMM_SELF, job.problem);
+    create_result(path, job);
+    ResultWriter file(path, MPI_COMM_SELF, job.problem);
     std::string message;
     {
         const FileSizeLimit limit(1000);

@@ -4,7 +4,7 @@
 #include "support/refusal.hpp"
 #include "support/scratch_folder.hpp"
 
-#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/result_writer.hpp"
 #include "overturn/file/stored_result.hpp"
 #include "overturn/text/error.hpp"
 
@@ -57,7 +57,7 @@ Job job_of_one_block()
 
 class CreateSpectrumFile : public testing::Test {
 protected:
-    void create(const char* name = "a.h5") const { create_spectrum_file(folder / name, job); }
+    void create(const char* name = "a.h5") const { create_result(folder / name, job); }
 
     ScratchFolder folder;
     Job job = sample_job();
@@ -92,8 +92,8 @@ TEST_F(CreateSpectrumFile, StoresJobsTooLongForAnAttribute)
 
 TEST_F(CreateSpectrumFile, StoresTheSizeOfTheBlockIfTheJobDefinesIt)
 {
-    create_spectrum_file(folder / "without.h5", sample_job());
-    create_spectrum_file(folder / "with.h5", job_of_one_block());
+    create_result(folder / "without.h5", sample_job());
+    create_result(folder / "with.h5", job_of_one_block());
     EXPECT_EQ(single_value(folder / "without.h5", "half_height"), std::nullopt);
     EXPECT_EQ(single_value(folder / "without.h5", "size"), std::nullopt);
     EXPECT_EQ(single_value(folder / "with.h5", "half_width"), 1.0);
@@ -134,7 +134,7 @@ TEST_F(CreateSpectrumFile, ReplacesAPartLeftByAKilledRun)
         std::filesystem::create_hard_link(folder / "a.h5.part", folder / "left");
         throw Killed();
     };
-    EXPECT_THROW(create_spectrum_file(folder / "a.h5", job, link_and_stop), Killed);
+    EXPECT_THROW(create_result(folder / "a.h5", job, link_and_stop), Killed);
     EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.part"));
     std::filesystem::rename(folder / "left", folder / "a.h5.part");
     create();
@@ -162,7 +162,7 @@ TEST_F(CreateSpectrumFile, DoesNotReplaceADanglingLink)
 TEST_F(CreateSpectrumFile, CanBeStoppedBetweenAnyTwoTilesWithoutLeavingAFile)
 {
     std::int64_t calls = 0;
-    create_spectrum_file(folder / "a.h5", job, [&] { ++calls; });
+    create_result(folder / "a.h5", job, [&] { ++calls; });
     EXPECT_EQ(calls, tiling_of(job.problem).size() * std::int64_t(job.problem.fields.size()));
     struct Stopped {};
     const auto stop = [&] {
@@ -170,7 +170,7 @@ TEST_F(CreateSpectrumFile, CanBeStoppedBetweenAnyTwoTilesWithoutLeavingAFile)
             throw Stopped();
         }
     };
-    EXPECT_THROW(create_spectrum_file(folder / "b.h5", job, stop), Stopped);
+    EXPECT_THROW(create_result(folder / "b.h5", job, stop), Stopped);
     EXPECT_FALSE(std::filesystem::exists(folder / "b.h5"));
     EXPECT_FALSE(std::filesystem::exists(folder / "b.h5.part"));
 }
@@ -195,8 +195,7 @@ TEST_F(CreateSpectrumFile, ReportsTheNumberOfMissingBytes)
     axis_of(job, "frequency") = Axis(AxisRange{1, 2, 10'000'000, Spacing::linear});
     axis_of(job, "amplitude") = Axis(AxisRange{1, 2, 10'000'000, Spacing::linear});
     const std::string message = refusal(exit_code::output, [&] { create(); });
-    EXPECT_THAT(message,
-                HasSubstr(std::to_string(std::uint64_t(spectrum_file_bytes(job))) + " bytes"));
+    EXPECT_THAT(message, HasSubstr(std::to_string(std::uint64_t(result_bytes(job))) + " bytes"));
     EXPECT_THAT(message, HasSubstr("are available"));
     EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
@@ -212,11 +211,11 @@ TEST_F(CreateSpectrumFile, LeavesNoFileIfTheDiskFailsDuringCreation)
 
 void expect_close_bound(const Job& job, const std::string& path)
 {
-    create_spectrum_file(path, job);
+    create_result(path, job);
     const auto actual = static_cast<long double>(std::filesystem::file_size(path));
-    EXPECT_GE(spectrum_file_bytes(job), actual) << path;
+    EXPECT_GE(result_bytes(job), actual) << path;
     // The bound stated in the header.
-    EXPECT_LE(spectrum_file_bytes(job), actual + actual / 32 + 32768) << path;
+    EXPECT_LE(result_bytes(job), actual + actual / 32 + 32768) << path;
 }
 
 TEST_F(SpectrumFileBytes, AreTheSizeOfTheFileOrLittleMore)
@@ -291,7 +290,7 @@ TEST_F(SpectrumFileBytes, DoNotOverflow)
     axis_of(job, "restitution_of_maximum") = Axis(many);
     axis_of(job, "slenderness") = Axis(many);
     job.problem.fields = {Field::region};
-    EXPECT_GT(spectrum_file_bytes(job), 0x1p65L);
+    EXPECT_GT(result_bytes(job), 0x1p65L);
     EXPECT_THAT(refusal(exit_code::output, [&] { create(); }), HasSubstr("it takes 4"));
 }
 

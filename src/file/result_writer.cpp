@@ -1,4 +1,4 @@
-#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/result_writer.hpp"
 
 #include "coordinate_variables.hpp"
 #include "layout.hpp"
@@ -187,7 +187,7 @@ std::string add_coordinates(hid_t file, const Job& job)
 
 void expect_space(const std::string& path, const std::string& part, const Job& job)
 {
-    const long double needed = spectrum_file_bytes(job);
+    const long double needed = result_bytes(job);
     std::error_code unknown; // then it is the largest number
     const auto available = std::filesystem::space(part, unknown).available;
     if (needed > static_cast<long double>(available)) {
@@ -230,7 +230,7 @@ void write_skeleton(hid_t file, const std::string& path, const Job& job,
 // its dimensions, and in the chunk index of a field one node per 56 tiles (rounded up here). A node
 // is a B-tree of 64 children: a header of 24 bytes, 64 addresses, and 65 keys with a size, a mask
 // and a number per dimension and one more, which are 3656 bytes for four dimensions.
-long double spectrum_file_bytes(const Job& job)
+long double result_bytes(const Job& job)
 {
     const Problem& problem = job.problem;
     const Tiling tiling = tiling_of(problem);
@@ -267,8 +267,7 @@ long double spectrum_file_bytes(const Job& job)
     return bytes + Count(2 * job.title.size() + job.given.size() + job.resolved.size());
 }
 
-void create_spectrum_file(const std::string& path, const Job& job,
-                          const BetweenTiles& between_tiles)
+void create_result(const std::string& path, const Job& job, const BetweenTiles& between_tiles)
 {
     make_file(path, job, kind_of(job.problem.product), [&](hid_t file, const std::string& part) {
         expect_space(path, part, job);
@@ -276,7 +275,7 @@ void create_spectrum_file(const std::string& path, const Job& job,
     });
 }
 
-struct SpectrumFile::Open {
+struct ResultWriter::Open {
     std::string path;
     Handle file;
     std::vector<StoredField> fields;
@@ -455,7 +454,7 @@ std::optional<int> rank_with_another_file(const std::string& path, MPI_Comm comm
     return first < ranks ? std::optional(first) : std::nullopt;
 }
 
-SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const Problem& problem,
+ResultWriter::ResultWriter(const std::string& path, MPI_Comm communicator, const Problem& problem,
                            bool durable)
     : open_(std::make_unique<Open>())
 {
@@ -490,9 +489,9 @@ SpectrumFile::SpectrumFile(const std::string& path, MPI_Comm communicator, const
     }
 }
 
-SpectrumFile::~SpectrumFile() = default;
+ResultWriter::~ResultWriter() = default;
 
-std::vector<std::int64_t> SpectrumFile::missing_tiles()
+std::vector<std::int64_t> ResultWriter::missing_tiles()
 {
     try {
         std::vector<std::int64_t> missing;
@@ -509,7 +508,7 @@ std::vector<std::int64_t> SpectrumFile::missing_tiles()
     }
 }
 
-void SpectrumFile::reset(const Tile& tile)
+void ResultWriter::reset(const Tile& tile)
 {
     const auto nothing_in = [&](const StoredField& stored) {
         return not_computed(stored.field, stored.part_of(tile).points());
@@ -517,13 +516,13 @@ void SpectrumFile::reset(const Tile& tile)
     open_->store(tile, {.values = mapped(open_->fields, nothing_in)}, not_computed_checksum);
 }
 
-void SpectrumFile::write(const Tile& tile, const TileFields& fields)
+void ResultWriter::write(const Tile& tile, const TileFields& fields)
 {
     const auto audit = open_->is_filled ? std::optional(fields.audit) : std::nullopt;
     open_->store(tile, fields, tile_checksum(fields.values, audit));
 }
 
-void SpectrumFile::close()
+void ResultWriter::close()
 {
     open_->expect_in_place();
     try {

@@ -2,7 +2,7 @@
 // extremes within those steps in which a bound allows a larger friction or a smaller normal force.
 #pragma once
 
-#include "overturn/integrate/rocking_step.hpp"
+#include "overturn/integrate/stepper_types.hpp"
 #include "overturn/mechanics/free_contact.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
 

@@ -1,8 +1,8 @@
-#include "answer.hpp"
+#include "topple_answer.hpp"
 
 #include "job.hpp"
 #include "print.hpp"
-#include "verdict.hpp"
+#include "topple_ranges.hpp"
 
 #include <fmt/ranges.h>
 

@@ -1,8 +1,8 @@
-#include "json.hpp"
+#include "json_outputs.hpp"
 
 #include "job.hpp"
 #include "print.hpp"
-#include "verdict.hpp"
+#include "topple_ranges.hpp"
 
 #include "overturn/file/provenance.hpp"
 

@@ -25,12 +25,12 @@ void start_hdf5();
 
 /// Upper bound of the size of the job's result file [byte]; the file is at most 3 % + 32 KiB
 /// smaller. In floating point, which cannot overflow here.
-long double spectrum_file_bytes(const Job& job);
+long double result_bytes(const Job& job);
 
 /// Creates the file, with no tile computed, under a temporary name, and renames it once it is
 /// synced to the disk. To be called by one rank. Throws Error, and leaves no file behind, if the
 /// folder is missing or not writable, or if there is not enough space.
-void create_spectrum_file(
+void create_result(
     const std::string& path, const Job& job, const BetweenTiles& between_tiles = [] {});
 
 /// Throws Error if MPI cannot open files of this absolute path.
@@ -46,14 +46,14 @@ std::optional<int> rank_with_another_file(const std::string& path, MPI_Comm comm
 /// Opening and closing are collective. The destructor therefore does not close the file: a rank
 /// that throws would wait for the others forever. A rank that does not call close() must abort all
 /// ranks.
-class SpectrumFile {
+class ResultWriter {
 public:
     /// The file must be one of this problem. A tile is marked as done once its values are written,
     /// so that they survive if a process is killed; if the file is to be durable, once they are
     /// synced to the disk, so that they also survive a power failure. Throws Error.
-    SpectrumFile(const std::string& path, MPI_Comm communicator, const Problem& problem,
+    ResultWriter(const std::string& path, MPI_Comm communicator, const Problem& problem,
                  bool durable = false);
-    ~SpectrumFile();
+    ~ResultWriter();
 
     /// Numbers of the tiles that are not computed yet, ascending. Not collective.
     std::vector<std::int64_t> missing_tiles();

@@ -1,10 +1,10 @@
-#include "overturn/file/study_files.hpp"
+#include "overturn/file/history_and_accuracy_files.hpp"
 
 #include "layout.hpp"
 #include "netcdf.hpp"
 #include "working_file.hpp"
 
-#include "overturn/file/spectrum_file.hpp"
+#include "overturn/file/result_writer.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/text/error.hpp"
 #include "overturn/text/mapped.hpp"

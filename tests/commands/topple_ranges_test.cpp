@@ -1,5 +1,5 @@
 // Ranges and verdicts in words.
-#include "commands/report/verdict.hpp"
+#include "commands/report/topple_ranges.hpp"
 #include "support/verdict_ranges.hpp"
 
 #include <fmt/format.h>

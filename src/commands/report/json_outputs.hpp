@@ -1,7 +1,7 @@
 // JSON for programs. Numbers that are not finite are null.
 #pragma once
 
-#include "answer.hpp"
+#include "topple_answer.hpp"
 
 #include "overturn/farm/farm.hpp"
 #include "overturn/sweep/kernel.hpp"
