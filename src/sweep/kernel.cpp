@@ -3,38 +3,79 @@
 #include "overturn/text/error.hpp"
 
 #include <array>
+#include <iterator>
 
 namespace overturn {
 
 /// In the order of Integrator.
-#define OVERTURN_KERNELS_FOR(isa)                                                                  \
-    kernel_##isa##_runge_kutta, kernel_##isa##_taylor_14, kernel_##isa##_taylor_20,                \
-        kernel_##isa##_recorded, kernel_##isa##_recorded_31
+#define OVERTURN_KERNELS_FOR(name)                                                                 \
+    kernel_##name##_runge_kutta, kernel_##name##_taylor_14, kernel_##name##_taylor_20,             \
+        kernel_##name##_recorded, kernel_##name##_recorded_31
 
-SweepKernelChoice OVERTURN_KERNELS_FOR(double), OVERTURN_KERNELS_FOR(neon),
-    OVERTURN_KERNELS_FOR(avx2), OVERTURN_KERNELS_FOR(avx512);
+// OVERTURN_TARGETS, which CMake defines, is OVERTURN_TARGET(name) of each target of this build.
+#define OVERTURN_TARGET(name) extern SweepKernelChoice OVERTURN_KERNELS_FOR(name);
+OVERTURN_TARGETS
+#undef OVERTURN_TARGET
 
 namespace {
 
 /// The compiled kernels, in the order of Integrator; null pointers for kernels not compiled.
-constexpr std::array<SweepKernelChoice*, 5> compiled(Kernel kernel)
+constexpr std::array<SweepKernelChoice*, 5> compiled([[maybe_unused]] Kernel kernel)
 {
-    switch (kernel) {
-#ifdef OVERTURN_KERNEL_double
-    case Kernel::one_lane: return {OVERTURN_KERNELS_FOR(double)};
-#endif
-#ifdef OVERTURN_KERNEL_neon
-    case Kernel::neon: return {OVERTURN_KERNELS_FOR(neon)};
-#endif
-#ifdef OVERTURN_KERNEL_avx2
-    case Kernel::avx2: return {OVERTURN_KERNELS_FOR(avx2)};
-#endif
-#ifdef OVERTURN_KERNEL_avx512
-    case Kernel::avx512: return {OVERTURN_KERNELS_FOR(avx512)};
-#endif
-    default: return {};
+#define OVERTURN_TARGET(name)                                                                      \
+    if (name_of(kernel) == #name) {                                                                \
+        return {OVERTURN_KERNELS_FOR(name)};                                                       \
     }
+    OVERTURN_TARGETS
+#undef OVERTURN_TARGET
+    return {};
 }
+
+#ifdef __x86_64__
+constexpr bool is_x86 = true;
+
+// The kernels are compiled for x86-64-v3 and v4; these features identify them.
+bool is_v3()
+{
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+           __builtin_cpu_supports("bmi2");
+}
+
+bool is_v4()
+{
+    return is_v3() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512cd");
+}
+#else
+constexpr bool is_x86 = false;
+bool is_v3()
+{
+    return false;
+}
+bool is_v4()
+{
+    return false;
+}
+#endif
+
+bool is_arm()
+{
+#ifdef __aarch64__
+    return true;
+#else
+    return false;
+#endif
+}
+
+bool is_v3_or_other()
+{
+    return !is_x86 || is_v3();
+}
+
+/// Whether the processor runs a kernel, in the order of the enumerators.
+constexpr bool (*requirements[])() = {is_v3_or_other, is_arm, is_v3, is_v4};
+static_assert(std::size(requirements) == names_of<Kernel>.size());
 
 } // namespace
 
@@ -44,26 +85,14 @@ SweepKernel sweep_kernel(Kernel kernel, Integrator integrator, Theory theory,
     return compiled(kernel)[std::size_t(integrator)](theory, outputs, directions);
 }
 
-bool is_compiled(Kernel kernel)
+bool is_compiled([[maybe_unused]] Kernel kernel)
 {
     return compiled(kernel)[0] != nullptr;
 }
 
 bool processor_runs(Kernel kernel)
 {
-#ifdef __x86_64__
-    // The kernels are compiled for x86-64-v3 and v4; these features identify them.
-    const bool is_v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                       __builtin_cpu_supports("bmi2");
-    const bool is_v4 = is_v3 && __builtin_cpu_supports("avx512f") &&
-                       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-                       __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512cd");
-    return kernel == Kernel::avx512 ? is_v4 : kernel != Kernel::neon && is_v3;
-#elif defined(__aarch64__)
-    return kernel == Kernel::one_lane || kernel == Kernel::neon;
-#else
-    return kernel == Kernel::one_lane;
-#endif
+    return requirements[std::size_t(kernel)]();
 }
 
 bool runs_here(Kernel kernel)
@@ -73,9 +102,9 @@ bool runs_here(Kernel kernel)
 
 Kernel widest_kernel()
 {
-    for (const Kernel kernel : {Kernel::avx512, Kernel::avx2, Kernel::neon, Kernel::one_lane}) {
-        if (runs_here(kernel)) {
-            return kernel;
+    for (std::size_t i = names_of<Kernel>.size(); i-- > 0;) {
+        if (runs_here(Kernel(i))) {
+            return Kernel(i);
         }
     }
     if (processor_runs(Kernel::one_lane)) {
