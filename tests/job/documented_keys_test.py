@@ -39,11 +39,11 @@ def main():
     all_rows = subprocess.run([program, "keys", "--markdown"], capture_output=True, text=True, check=True).stdout
     missing = [row for row in all_rows.splitlines() if row not in page.read_text()]
     fields = known_fields(program) ^ documented_fields(folder)
-    if missing or fields or current != page.read_text() or len(all_rows.splitlines()) < 40:
-        print(*missing, f"fields of one only: {fields}" * bool(fields),
-              f"The tables of {page} are not those of the program; {sys.argv[0]} PROGRAM DOCS --write replaces them.",
-              sep="\n")
-        sys.exit(1)
+    if fields:
+        sys.exit(f"{folder / 'results.md'}: either its table of fields or the program lacks {', '.join(fields)}.")
+    if missing or current != page.read_text() or len(all_rows.splitlines()) < 40:
+        print(*missing, sep="\n")
+        sys.exit(f"The tables of {page} are not those of the program; {sys.argv[0]} PROGRAM DOCS --write replaces them.")
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ struct RecordComponent {
     std::string name;
     /// Where its sensor is, such as "Roof: SW"; empty if the file does not state it.
     std::string place = {};
-    std::vector<double> acceleration; ///< at least one sample [unit]
+    std::vector<double> acceleration{}; ///< at least one sample [unit]
     AccelerationUnit unit = AccelerationUnit::g;
     double time_step = 0; ///< above 0 [s]
     /// Whether the file states that it was neither filtered nor corrected for the instrument.
@@ -42,7 +42,7 @@ struct RecordComponent {
     /// Peak acceleration over g of the ground that caused the motion of a floor, if it is stated.
     std::optional<double> ground_pga = {};
     /// Header lines as in the file, without line ends, in any encoding; for text, the comments.
-    std::vector<std::string> header;
+    std::vector<std::string> header{};
 };
 
 /// Its accelerations over g; gravity: g [m/s2].
