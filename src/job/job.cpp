@@ -138,9 +138,9 @@ void expect_computable(const Entry& job, const Problem& problem)
         if (!has_contact_forces(problem.scene.theory) &&
             is_one_of(&Outputs::contact, traits_of(field).needs)) {
             refuse(key("output", "fields"),
-                   " contains \"{}\", but the linear theory has no forces of the contact. Remove "
-                   "it, or use theory = \"nonlinear\".",
-                   name_of(field));
+                   " contains \"{}\", but the {} theory has no forces of the contact. Remove it, "
+                   "or use theory = \"nonlinear\".",
+                   name_of(field), name_of(problem.scene.theory));
         }
     }
     const std::string reason = problem.product.audit() ? reason_not_to_fill(problem) : "";

@@ -1,6 +1,7 @@
 // The module overturn._core: the functions of the program's libraries that the Python package
 // calls. Shapes and optional arguments are handled in tools/overturn/evaluation.py and records.py.
 #include "overturn/mechanics/region.hpp"
+#include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/problem/given.hpp"
 #include "overturn/problem/plausibility.hpp"
 #include "overturn/record/read_record.hpp"
@@ -176,11 +177,11 @@ std::vector<Field> fields_named(const std::vector<std::string>& names, const Sce
                 fmt::format("fields contains \"{}\", which is not one of {}.", name,
                             fmt::join(mapped(known, &Field::name), ", ")));
         }
-        if (scene.theory == Theory::linear &&
+        if (!has_contact_forces(scene.theory) &&
             is_one_of(&Outputs::contact, traits_of(*found).needs)) {
             throw std::invalid_argument(fmt::format(
-                "fields contains \"{}\", but the linear theory has no forces of the contact.",
-                name));
+                "fields contains \"{}\", but the {} theory has no forces of the contact.", name,
+                name_of(scene.theory)));
         }
         if (*found == Field::error && !knows_errors(numerics)) {
             throw std::invalid_argument(fmt::format(

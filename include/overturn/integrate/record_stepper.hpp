@@ -190,6 +190,7 @@ private:
         const auto largest = [&](const Ramp<T>& ramp) -> T {
             return greater<T>(abs(ramp.start), abs(ramp.at(h)));
         };
+        static_assert(Equations<theory>::moment_is_at_most_distance);
         const auto& horizontal = horizontal_of(push);
         const T pushed = largest(horizontal);
         T gravity(1);

@@ -29,10 +29,12 @@ private:
                 visit(part);
             }
         };
-        visit_if(self.impacts);
-        visit_if(self.error);
-        visit_if(self.extremes);
-        visit_if(self.events);
+        // With structured bindings, a new member that is not named here does not compile.
+        auto& [first, second, third, fourth] = self;
+        visit_if(first);
+        visit_if(second);
+        visit_if(third);
+        visit_if(fourth);
     }
 };
 

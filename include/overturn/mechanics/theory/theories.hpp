@@ -10,8 +10,11 @@ namespace overturn {
 template <class Visitor>
 auto with_theory(Theory theory, const Visitor& visit)
 {
-    return theory == Theory::linear ? visit.template operator()<Theory::linear>()
-                                    : visit.template operator()<Theory::nonlinear>();
+    switch (theory) {
+    case Theory::linear: return visit.template operator()<Theory::linear>();
+    case Theory::nonlinear: break;
+    }
+    return visit.template operator()<Theory::nonlinear>();
 }
 
 /// Whether the forces of the contact are defined.
