@@ -180,7 +180,7 @@ struct PackPoints {
     S spare[lanes]; ///< infinite in spare lanes
 };
 
-/// The contact of the blocks, if it is watched.
+/// The contact of the blocks, if it is observed.
 template <Theory theory, Outputs outputs>
 std::optional<ContactSides<estimate_t<T>>> contact_of([[maybe_unused]] const PackPoints& points,
                                                       [[maybe_unused]] const Block<T>& blocks)

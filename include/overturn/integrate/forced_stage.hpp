@@ -140,7 +140,7 @@ public:
         return end;
     }
 
-    /// What the contact had to bear, if it was watched and all lanes have an end.
+    /// What the contact had to bear, if it was observed and all lanes have an end.
     ContactDemand<E> contact_demand() const
         requires(outputs.contact)
     {
@@ -177,7 +177,7 @@ private:
         });
     }
 
-    /// Calls visit(observer) if the contact is watched.
+    /// Calls visit(observer) if the contact is observed.
     void with_contact([[maybe_unused]] const auto& visit)
     {
         if constexpr (outputs.contact) {
