@@ -277,10 +277,10 @@ class AContact(Scratch):
         return self.compare('pulse = "one_sine"', rows, ground_of, lambda row: [0, row["pulse_period"]])
 
     def test_of_boxes_under_pulses_bears_what_scipy_finds(self):
-        self.assertGreater(self.compare_under_pulses(1, 30, False), 25)
+        self.assertGreater(self.compare_under_pulses(1, 16, False), 13)
 
     def test_of_blocks_with_two_sides_under_pulses_bears_what_scipy_finds(self):
-        self.assertGreater(self.compare_under_pulses(2, 30, True), 25)
+        self.assertGreater(self.compare_under_pulses(2, 16, True), 13)
 
     def compare_under_a_record(self, seed, two_sided):
         random = np.random.default_rng(seed)

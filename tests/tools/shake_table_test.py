@@ -8,6 +8,7 @@ import importlib.util
 import json
 import os
 import pathlib
+import sys
 import unittest
 
 import h5py
@@ -173,6 +174,7 @@ class TestTheScores(unittest.TestCase):
         np.testing.assert_allclose(example.fit_logistic(measures, toppled), [0.5, 2.0, -1.0], atol=0.1)
 
 
+@unittest.skipUnless("TestTheCalibrationHalf" in sys.argv, "takes two minutes")
 class TestTheCalibrationHalf(Simulated):
     def test_is_predicted_in_cross_validation(self):
         if not DATA.exists():
