@@ -1,0 +1,159 @@
+#include "overturn/integrate/sliding_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace overturn {
+namespace {
+
+/// The box 0.6 m x 1.8 m, with numbers in units of R and 1/p.
+struct Box {
+    static constexpr double g = 9.81;
+    static constexpr double gyration = 0.57735026918962576;
+    double R = std::hypot(0.3, 0.9);
+    double p = std::sqrt(3 * g / (4 * R));
+    double incline = 0;
+
+    Block<double> block(double share_of_r_max = 1) const
+    {
+        const double alpha = std::atan(1.0 / 3);
+        const double r = share_of_r_max * largest_restitution(alpha);
+        return {BlockSide<double>{alpha - incline}, r, BlockSide<double>{alpha + incline}};
+    }
+
+    PulseExcitation<double> pulse(PulseKind kind, double period, double pga) const
+    {
+        const Block<double> at = block();
+        const double least = std::min(at.slenderness, at.other.slenderness);
+        return pulse_excitation<Theory::nonlinear>(
+            pulse_motion<double>(kind), at, pga / std::tan(least), 2 * pi<double>() / (period * p));
+    }
+
+    SlidingEnd<double> under(PulseKind kind, double period, double pga, double friction,
+                             double tolerance = 1e-12) const
+    {
+        return run_sliding<double>(block(), gyration, friction, pulse(kind, period, pga),
+                                   tolerance);
+    }
+};
+
+/// An independent event-driven program found these flips in steps of 0.01 g from 0.3 to 2.5 g.
+TEST(SlidingMotion, FlipsWhereAnIndependentProgramDoes)
+{
+    const Box box;
+    const auto topples = [&](double pga, double friction) {
+        const auto end = box.under(PulseKind::one_sine, 0.5, pga, friction);
+        EXPECT_NE(end.region, Region::undecided);
+        return is_unsafe(end.region);
+    };
+    const std::pair<double, std::vector<double>> flips[] = {
+        {5, {0.903473050, 1.839675309, 2.129684844}},
+        {0.6, {0.903473050, 1.840337805, 2.197886429}},
+        {0.5, {0.903473050, 2.247929522}},
+        {0.45, {0.903568714}},
+        {0.4, {0.949190031}},
+        {0.36, {1.147676284}},
+        {0.34, {1.604914382}},
+        {1.0 / 3, {}}};
+    for (const auto& [friction, at] : flips) {
+        bool expected = false;
+        auto next = at.begin();
+        for (int i = 30; i <= 250; ++i) {
+            const double pga = 0.01 * i;
+            if (next != at.end() && *next < pga) {
+                EXPECT_EQ(topples(*next - 2e-9, friction), expected) << friction << ", " << *next;
+                expected = !expected;
+                EXPECT_EQ(topples(*next + 2e-9, friction), expected) << friction << ", " << *next;
+                ++next;
+            }
+            EXPECT_EQ(topples(pga, friction), expected) << friction << ", " << pga;
+        }
+    }
+}
+
+TEST(SlidingMotion, MovesTheBaseAsInClosedFormOrAsAnIndependentProgramFound)
+{
+    const Box box;
+    const auto slide = [](const SlidingEnd<double>& end, const Box& of) {
+        EXPECT_TRUE(end.slipped);
+        EXPECT_EQ(end.impacts, 0);
+        return end.slide * of.R;
+    };
+    // g (A - mu) A t_d^2 / (2 mu) under a rectangular pulse.
+    for (const auto& [A, t_d, mu] : {std::array{0.5, 0.2, 0.2}, {0.8, 0.2, 0.3}, {0.4, 1.0, 0.1}}) {
+        EXPECT_NEAR(slide(box.under(PulseKind::rectangular, 2 * t_d, A, mu), box),
+                    -Box::g * (A - mu) * A * t_d * t_d / (2 * mu), 1e-13);
+    }
+    EXPECT_NEAR(slide(box.under(PulseKind::half_sine, 0.5, 0.6, 0.25), box), -0.0774640327, 1e-10);
+    const auto end = box.under(PulseKind::one_sine, 0.5, 0.6, 0.2);
+    EXPECT_NEAR(slide(end, box), -0.0201010964, 1e-10);
+    EXPECT_NEAR(end.slide_peak * box.R, 0.0883227284, 1e-10);
+    const Box inclined{.incline = 0.05};
+    EXPECT_NEAR(slide(inclined.under(PulseKind::one_sine, 0.5, 0.5, 0.3), inclined), 0.0323666561,
+                2e-10);
+}
+
+TEST(SlidingMotion, OfTheMirroredMotionIsMirrored)
+{
+    std::mt19937_64 generator(2);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int i = 0; i < 200; ++i) {
+        const Box box{.incline = i % 2 == 0 ? 0 : 0.1 * uniform(generator)};
+        const Box turned{.incline = -box.incline};
+        const double friction = 0.2 + 0.5 * uniform(generator);
+        const double period = 0.3 + uniform(generator);
+        const double pga = 0.3 + 1.5 * uniform(generator);
+        const auto one = box.under(PulseKind::one_cosine, period, pga, friction);
+        const auto other = turned.under(PulseKind::one_cosine, period, -pga, friction);
+        // On an incline, the distances of the corners are rounded in another order.
+        const double rounding = box.incline == 0 ? 0 : 1e-9;
+        EXPECT_NEAR(one.slide, -other.slide, rounding);
+        EXPECT_NEAR(one.slide_peak, other.slide_peak, rounding);
+        EXPECT_EQ(is_unsafe(one.region), is_unsafe(other.region));
+        EXPECT_EQ(one.impacts, other.impacts);
+    }
+}
+
+/// Kinetic energy, that of sliding included, and potential energy, over the mass.
+double energy_of(const SlidingMotion<double, PulseExcitation<double>>& motion,
+                 const SlidingSide<double>& side)
+{
+    const OnCorner<double> at = on_corner(side, motion.tilt());
+    const double rate = motion.rate();
+    const double along = motion.side() * motion.base_velocity() + rate * at.y;
+    const double upwards = -rate * at.x;
+    return (along * along + upwards * upwards + side.gyration * rate * rate) / 2 +
+           side.gravity * at.y;
+}
+
+TEST(SlidingMotion, OnALevelBaseLosesEnergyOnceTheGroundHasStopped)
+{
+    std::mt19937_64 generator(3);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    int slipped = 0;
+    for (int i = 0; i < 500; ++i) {
+        const Box box;
+        const Block<double> block = box.block(0.6 + 0.4 * uniform(generator));
+        const double friction = 0.34 + 0.3 * uniform(generator);
+        const auto excitation =
+            box.pulse(PulseKind::half_sine, 0.3 + uniform(generator), 0.5 + 2 * uniform(generator));
+        SlidingMotion<double, PulseExcitation<double>> motion(block, Box::gyration, friction,
+                                                              excitation, 1e-12);
+        const SlidingSide<double> side = sliding_side(block, Box::gyration, friction);
+        double before = std::numeric_limits<double>::infinity();
+        while (!motion.is_over()) {
+            if (motion.phase() >= excitation.motion.end) {
+                const double now = energy_of(motion, side);
+                ASSERT_LE(now, before * (1 + 1e-11)) << i;
+                before = now;
+            }
+            motion.advance();
+        }
+        slipped += motion.end().slips_after;
+    }
+    EXPECT_GT(slipped, 100);
+}
+
+} // namespace
+} // namespace overturn
