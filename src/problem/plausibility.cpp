@@ -171,7 +171,7 @@ void judge_directions(const Grid& grid, const Coordinates& coordinates, Findings
 {
     const bool differ = grid.has_two_sides() && have_different_sides(coordinates);
     if (!coordinates.has("direction")) {
-        findings.push_back(
+        findings.emplace_back(
             differ ? "the mirror image of the motion, direction 180, is not computed; it "
                      "may be worse for blocks with two different sides (give the "
                      "direction, 0 or 180)"

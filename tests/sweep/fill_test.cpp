@@ -1,6 +1,7 @@
 #include "overturn/mechanics/region.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/sweep/fill.hpp"
+#include "support/every_kernel.hpp"
 #include "support/every_scene.hpp"
 #include "support/given_values.hpp"
 
@@ -133,10 +134,7 @@ TEST(Fill, EveryPointHasTheImpactsOfADirectSpectrum)
 TEST(Fill, EveryKernelFillsTheSamePoints)
 {
     const Grid grid = some_grid(120, 100);
-    for (const Kernel kernel : {Kernel::one_lane, Kernel::avx2, Kernel::avx512}) {
-        if (!runs_here(kernel)) {
-            continue;
-        }
+    for (const Kernel kernel : every_kernel()) {
         for (const Scene& scene : every_scene()) {
             const Problem problem = filled_problem(scene, {}, grid, region_and_impacts, 0.01);
             const FilledTile one = filled(problem, {}, kernel);

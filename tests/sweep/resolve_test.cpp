@@ -1,6 +1,7 @@
 // Uncertain verdicts, and only those, are settled with more digits.
 #include "overturn/sweep/compute_tile.hpp"
 #include "point_run.hpp"
+#include "support/every_kernel.hpp"
 #include "support/given_values.hpp"
 #include "support/one_point.hpp"
 #include "support/random_record.hpp"
@@ -173,10 +174,7 @@ TEST(PointsIn31Digits, AreTheSameOnEveryKernel)
                                   .margin = true,
                                   .steps = true};
         std::optional<Outcomes> first;
-        for (const Kernel kernel : {Kernel::one_lane, Kernel::avx2, Kernel::avx512}) {
-            if (!runs_here(kernel)) {
-                continue;
-            }
+        for (const Kernel kernel : every_kernel()) {
             Outcomes found(21, outputs);
             PointRun(scene, points, kernel).run_in_31_digits(found, chosen);
             if (!first) {

@@ -162,7 +162,7 @@ T turning_tilt(const T& slenderness, const TurnsInStep<T>& turns, const T& lowes
     const T near_flat(pi<S>() / 2 - S(1) / 16);
     const mask_t<T> suspect = (turns.once && (lowest < near_ground || highest > near_flat)) ||
                               (turns.twice && lowest < near_ground);
-    const T nearer = select<T>(turns.once && turns.inward, near_ground, near_flat);
+    T nearer = select<T>(turns.once && turns.inward, near_ground, near_flat);
     if (!any<T>(suspect)) {
         return nearer;
     }

@@ -13,7 +13,7 @@ namespace overturn {
 /// ARM, where neon has two lanes, it is for debugging and comparison.
 enum class Kernel { one_lane, neon, avx2, avx512 };
 
-/// From the narrowest to the widest.
+/// From the least to the most preferred.
 template <>
 inline constexpr std::array<std::string_view, 4> names_of<Kernel>{"double", "neon", "avx2",
                                                                   "avx512"};

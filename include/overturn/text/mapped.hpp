@@ -14,6 +14,7 @@ auto mapped(const List& list, const Function& function)
 {
     using Result = std::invoke_result_t<const Function&, decltype(*std::begin(list))>;
     std::vector<std::remove_cvref_t<Result>> results;
+    results.reserve(std::size(list));
     for (const auto& element : list) {
         results.push_back(std::invoke(function, element));
     }
