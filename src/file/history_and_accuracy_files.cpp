@@ -32,7 +32,7 @@ constexpr SampleQuantity quantities[] = {
      "4 sin^2((alpha - |theta|) / 2) - (d theta / d(p t))^2; linear theory: (alpha - |theta|)^2 - "
      "(d theta / d(p t))^2"},
     {"ground", "ground acceleration, over g", "1", &HistorySample::ground},
-    {"friction", "friction coefficient needed", "1", &HistorySample::friction,
+    {"friction_demand", "friction coefficient needed", "1", &HistorySample::friction_demand,
      "|along| / normal force of the base on the block; infinite where the block would leave the "
      "base"},
 };

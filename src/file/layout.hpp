@@ -13,7 +13,9 @@ namespace overturn::layout {
 
 /// Global attribute: the version of the layout. Other versions are refused.
 inline constexpr char format_version[] = "format_version";
-inline constexpr std::int64_t format = 4;
+inline constexpr std::int64_t format = 5;
+/// Read as well: the field friction_demand is called friction there.
+inline constexpr std::int64_t former_format = 4;
 
 /// The name of an object in the group of what is neither a coordinate nor a field: how the file was
 /// computed. Readers that open the root group, such as xarray.open_dataset(), do not see it.

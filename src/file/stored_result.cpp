@@ -74,9 +74,24 @@ std::vector<AxisSummary> read_coordinate_numbers(hid_t file, std::uint64_t bytes
     return numbers;
 }
 
+std::int64_t format_of(hid_t file)
+{
+    const auto format = hdf5::read_integers_attribute(file, layout::format_version);
+    return format.empty() ? 1 : format.front();
+}
+
+/// Of the fields, in a file of this format.
+std::string stored_name(Field field, std::int64_t format)
+{
+    return format == layout::former_format && field == Field::friction_demand
+               ? "friction"
+               : std::string(name_of(field));
+}
+
 /// The fields in the order of their creation, which is that of the job.
 std::vector<Field> read_fields(hid_t file)
 {
+    const std::int64_t format = format_of(file);
     H5G_info_t group = {};
     check(H5Gget_info(file, &group));
     std::vector<Field> fields;
@@ -85,8 +100,10 @@ std::vector<Field> read_fields(hid_t file)
         const auto length = check(H5Lget_name_by_idx(file, ".", H5_INDEX_CRT_ORDER, H5_ITER_INC, i,
                                                      name.data(), name.size(), H5P_DEFAULT));
         name.resize(std::min(std::size_t(length), name.size()));
-        if (const FieldTraits* found = find_field(name)) {
-            fields.push_back({found->name});
+        for (const FieldTraits& each : all_fields()) {
+            if (stored_name({each.name}, format) == name) {
+                fields.push_back({each.name});
+            }
         }
     }
     require(!fields.empty(), "there are no fields");
@@ -95,7 +112,7 @@ std::vector<Field> read_fields(hid_t file)
 
 void check_field(hid_t file, Field field, const std::vector<AxisSummary>& axes, std::uint64_t bytes)
 {
-    const Handle dataset = open_own_dataset(file, std::string(name_of(field)));
+    const Handle dataset = open_own_dataset(file, stored_name(field, format_of(file)));
     require(std::ranges::equal(shape_of(dataset), axes, {}, {},
                                [](const AxisSummary& axis) { return hsize_t(axis.size); }),
             "a field does not fit the axes");
@@ -113,14 +130,14 @@ FileOrigin read_origin(hid_t file, const std::string& path)
                     path, name.empty() ? "" : fmt::format(": its kind is \"{}\"", name));
     }
     origin.kind = *kind;
-    const auto format = hdf5::read_integers_attribute(file, layout::format_version);
-    const std::int64_t version = format.empty() ? 1 : format.front();
-    if (version != layout::format) {
-        throw Error(exit_code::output,
-                    "\"{}\" has format version {}, but this program reads version {}. Use {}.",
-                    path, version, layout::format,
-                    version > layout::format ? "a newer program"
-                                             : "an older program, or compute the file again");
+    const std::int64_t version = origin.format = format_of(file);
+    if (version != layout::format && version != layout::former_format) {
+        throw Error(
+            exit_code::output,
+            "\"{}\" has format version {}, but this program reads versions {} and {}. Use {}.",
+            path, version, layout::former_format, layout::format,
+            version > layout::format ? "a newer program"
+                                     : "an older program, or compute the file again");
     }
     origin.title = hdf5::read_text_attribute(file, "title");
     origin.motion_of =
@@ -219,7 +236,8 @@ struct StoredResult::Open {
     {
         const Tiling all = tiling();
         const std::vector<StoredField> stored = mapped(fields, [&](Field field) {
-            return StoredField{field, hdf5::open_dataset(file, name_of(field)), crossing()};
+            const std::string name = stored_name(field, format_of(file));
+            return StoredField{field, hdf5::open_dataset(file, name), crossing()};
         });
         for (std::int64_t number = 0; number < all.size(); ++number) {
             between_tiles();
@@ -446,6 +464,13 @@ std::optional<StoredResult> existing_result(const std::string& path, const Job& 
         stored.emplace(path);
     } catch (const Error& error) {
         throw Error(exit_code::output, "{} Choose another name with -o.", error.what());
+    }
+    if (stored->origin().format != layout::format) {
+        throw Error(
+            exit_code::output,
+            "\"{}\" was written by an older program, and is not continued by this one. Choose "
+            "another name with -o.",
+            path);
     }
     expect_result_of(job, *stored);
     return stored;

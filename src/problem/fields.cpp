@@ -134,13 +134,13 @@ const FieldTraits fields[] = {
      {&Outputs::region, &Outputs::peak}, each<peak>},
     {"fall_time", float64, "time p t from uplift to |theta| = pi/2", "1",
      "infinite where the block does not overturn", {&Outputs::region, &Outputs::phase}, each<fall_time>},
-    {"friction", float64, "friction coefficient needed", "1",
+    {"friction_demand", float64, "friction coefficient needed", "1",
      "the largest |along| / normal force of the base on the block, during the ground motion and "
      "after it, impacts excepted; of a block that overturns, until it last passes alpha; infinite "
      "where the block would leave the base",
-     {&Outputs::contact}, each<value_of<&Outcome::friction>>},
+     {&Outputs::contact}, each<value_of<&Outcome::friction_demand>>},
     {"normal", float64, "smallest normal force over that at rest", "1",
-     "over the same times as the friction", {&Outputs::contact}, each<value_of<&Outcome::normal>>},
+     "over the same times as friction_demand", {&Outputs::contact}, each<value_of<&Outcome::normal>>},
     {"impacts", uint16, "impacts during the ground motion", "1", "", {&Outputs::impacts}, each<impacts>,
      {{impact_count::largest, "this_many_or_more"}, {impact_count::not_computed, "not_computed"},
       {impact_count::bounce_series, "bounce_series"}}, FieldOf::filled_point},

@@ -178,7 +178,7 @@ private:
                 .acceleration = state.side * pull * (ratio * ratio),
                 .q = double(conserved_q<theory>(state, seen)),
                 .ground = horizontal_of(ground),
-                .friction = friction_of(
+                .friction_demand = friction_of(
                     force_while_rocking(sides_.seen_from(state.side), seen.slenderness, moving))};
     }
 
@@ -187,7 +187,7 @@ private:
     {
         HistorySample result = sample(time, {0, 0, 1}, ground);
         result.acceleration = 0;
-        result.friction = friction_of(force_at_rest(sides_.plus, ground, ground));
+        result.friction_demand = friction_of(force_at_rest(sides_.plus, ground, ground));
         return result;
     }
 
@@ -238,7 +238,7 @@ private:
             follow(time, [&](double before) {
                 HistorySample last = at(before);
                 if (is_at_onset) { // the block does not rest under a jump that lifts it
-                    last.friction = resting(before, 0.0).friction;
+                    last.friction_demand = resting(before, 0.0).friction_demand;
                 }
                 return last;
             });

@@ -334,7 +334,7 @@ namespace {
 /// What the contact bears is unknown without a verdict.
 void judge_contact(Outcome& outcome, bool is_known)
 {
-    outcome.friction = is_known ? outcome.friction : unknown;
+    outcome.friction_demand = is_known ? outcome.friction_demand : unknown;
     outcome.normal = is_known ? outcome.normal : unknown;
     if (outcome.normal <= 0) {
         outcome.flags |= status::lifts_off;
@@ -355,7 +355,7 @@ void PointRun::add_contact(Outcomes& outcomes) const
         run_in_31_digits(watched, in_doubt);
     }
     for (int i = 0; i < size(); ++i) {
-        outcomes[i].friction = watched[i].friction;
+        outcomes[i].friction_demand = watched[i].friction_demand;
         outcomes[i].normal = watched[i].normal;
         // The motion may be so sensitive that this run has another end than the one of the verdict.
         judge_contact(outcomes[i], watched[i].region == outcomes[i].region &&

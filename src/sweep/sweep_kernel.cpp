@@ -80,7 +80,7 @@ template <Theory theory, Outputs outputs>
     if constexpr (outputs.contact) {
         if (wanted.contact) {
             const auto demand = stage.contact_demand();
-            put(demand.friction, &Outcome::friction);
+            put(demand.friction, &Outcome::friction_demand);
             put(demand.normal, &Outcome::normal);
         }
     }

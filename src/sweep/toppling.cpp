@@ -49,7 +49,7 @@ std::vector<double> friction_to_topple(const Problem& of_one_point, const Verdic
     std::erase_if(problem.grid.numbers,
                   [](const Column& number) { return number.quantity->role == Role::strength; });
     problem.grid.dimensions = {{strength, {{&quantity(strength), Axis(AxisList(strengths))}}}};
-    const std::vector<double> friction = accurate_values(problem, Field::friction);
+    const std::vector<double> friction = accurate_values(problem, Field::friction_demand);
     std::vector<double> needed;
     double largest = 0; // NaN as soon as one is unknown
     for (std::size_t i = 0; i < accelerations.size(); ++i) {
@@ -183,7 +183,7 @@ ToppleAnswer answer_of(const Problem& problem, const ToppleQuestion& question)
                          : std::isinf(answer.peak) ? Verdict::topples
                                                    : Verdict::safe;
         if (has_contact_forces(scene.theory)) {
-            answer.friction = accurate_values(problem, Field::friction).front();
+            answer.friction_demand = accurate_values(problem, Field::friction_demand).front();
         }
     }
     answer.lifting_pga = lifting_pga(scene, point);

@@ -54,6 +54,13 @@ std::string_view nearest_name(std::string_view word, std::span<const std::string
             least = distance;
         }
     }
+    const auto begins_with = [](std::string_view whole, std::string_view part) {
+        return !part.empty() && whole.size() > part.size() && whole.starts_with(part) &&
+               whole[part.size()] == '_';
+    };
+    for (auto name = names.begin(); nearest.empty() && name != names.end(); ++name) {
+        nearest = begins_with(*name, word) || begins_with(word, *name) ? *name : "";
+    }
     return nearest;
 }
 

@@ -17,7 +17,7 @@ except ImportError:
     solve_ivp = None
 
 G = 9.81
-FIELDS = ("region", "angle", "velocity", "peak", "fall_time", "friction", "normal", "impacts", "status")
+FIELDS = ("region", "angle", "velocity", "peak", "fall_time", "friction_demand", "normal", "impacts", "status")
 
 
 class Rocker:
@@ -247,9 +247,9 @@ class AContact(Scratch):
                 self.compare_state(follower, {name: values[number] for name, values in found.items()})
                 self.assertAlmostEqual(found["normal"][number], normal, delta=1e-8)
                 if np.isfinite(friction):
-                    self.assertAlmostEqual(found["friction"][number] / friction, 1, delta=1e-8 / min(normal, 1))
+                    self.assertAlmostEqual(found["friction_demand"][number] / friction, 1, delta=1e-8 / min(normal, 1))
                 else:
-                    self.assertEqual(found["friction"][number], np.inf)
+                    self.assertEqual(found["friction_demand"][number], np.inf)
         return compared
 
     def compare_state(self, follower, found):
@@ -305,7 +305,7 @@ class AContact(Scratch):
     def test_that_lifts_at_a_jump_bears_what_shenton_finds(self):
         k, accelerations = 4, np.array([1, 0.5, 0.26])  # k: height over width
         rows = [{"width": 0.5, "height": 2.0, "pulse_period": 0.4, "restitution": 0.8, "pga": a} for a in accelerations]
-        found = self.computed('pulse = "rectangular"', rows)["friction"]
+        found = self.computed('pulse = "rectangular"', rows)["friction_demand"]
         np.testing.assert_allclose(found, (accelerations * (4 + k**2) + 3 * k) / (4 * k**2 + 1 + 3 * k * accelerations),
                                    rtol=1e-14)
 
@@ -314,7 +314,7 @@ class AContact(Scratch):
                  "direction": direction} for direction in (180, 0)]
         found = self.computed('pulse = "rectangular"', rows)
         # Shenton's force on the inclined base, at the onset for direction 180.
-        np.testing.assert_allclose(found["friction"], [1.700, 0.636], atol=5e-4)
+        np.testing.assert_allclose(found["friction_demand"], [1.700, 0.636], atol=5e-4)
         self.assertAlmostEqual(found["normal"][0], 0.887, delta=5e-4)
         self.assertEqual(list(found["status"] & 32), [0, 0])
 

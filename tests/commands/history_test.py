@@ -38,7 +38,7 @@ class AHistory(Scratch):
                 self.assertEqual(found.angle.dims, ("time",))
                 self.assertTrue((np.diff(found.time) >= 0).all())
                 self.assertEqual(set(found.to_dataframe().columns),
-                                 {"angle", "velocity", "acceleration", "q", "ground", "friction"})
+                                 {"angle", "velocity", "acceleration", "q", "ground", "friction_demand"})
             with xarray.open_dataset(self.folder / "history.h5", engine=engine, group="events") as events:
                 self.assertEqual(events.time.dims, ("event",))
 

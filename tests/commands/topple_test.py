@@ -55,10 +55,10 @@ class Toppling(Scratch):
         self.assertIn("friction     the verdict holds if the coefficient is at least 0.46", self.topple(*PULSE, "--pga", "0.9"))
         alpha = math.atan(1 / 3)
         at_rest = self.answer(*PULSE, "--pga", "0.25")
-        self.assertAlmostEqual(at_rest["friction"], 0.25, places=12)
-        self.assertGreaterEqual(self.answer(*PULSE, "--pga", "0.34")["friction"], math.tan(alpha) * (1 - 1e-12))
+        self.assertAlmostEqual(at_rest["friction_demand"], 0.25, places=12)
+        self.assertGreaterEqual(self.answer(*PULSE, "--pga", "0.34")["friction_demand"], math.tan(alpha) * (1 - 1e-12))
         linear = self.answer(*PULSE, "--pga", "0.9", "--set", "scene.theory=linear")
-        self.assertEqual((linear["friction"], linear["friction_to_topple"]), (None, []))
+        self.assertEqual((linear["friction_demand"], linear["friction_to_topple"]), (None, []))
         self.assertNotIn("friction", self.topple(*PULSE, "--pga", "0.9", "--set", "scene.theory=linear"))
 
     def test_states_the_friction_of_its_ranges(self):
@@ -72,11 +72,11 @@ class Toppling(Scratch):
                 (self.folder / "up.toml").write_text(
                     f"[scene]\n{scene}\n[block]\nwidth = 0.6\nheight = 1.8\n[plane]\nrestitution_of_maximum = 1\n{period}\n"
                     f"pga = {{ first = {answer['lifting_pga']}, last = {lower}, count = 400 }}\n"
-                    '[numerics]\nresolve = true\n[output]\nfields = ["region", "friction"]\n')
+                    '[numerics]\nresolve = true\n[output]\nfields = ["region", "friction_demand"]\n')
                 self.assert_exit(self.overturn("run", "up.toml", "-o", "up.h5"), 0)
                 with h5py.File(self.folder / "up.h5") as file:
                     # Two scans, with steps of half a per cent or less, of a friction that is at most in proportion.
-                    self.assertAlmostEqual(np.max(file["friction"][:]) / needed, 1, delta=0.005)
+                    self.assertAlmostEqual(np.max(file["friction_demand"][:]) / needed, 1, delta=0.005)
                 (self.folder / "up.h5").unlink()
 
     def test_knows_the_friction_at_the_lower_ends_of_ranges(self):

@@ -22,7 +22,7 @@ TEST(Fields, ThatAreKnownByNameHaveARow)
 {
     for (const Field field :
          {Field::region, Field::angle, Field::velocity, Field::margin, Field::error, Field::peak,
-          Field::fall_time, Field::friction, Field::normal, Field::impacts, Field::steps,
+          Field::fall_time, Field::friction_demand, Field::normal, Field::impacts, Field::steps,
           Field::status, Field::region_below, Field::flip_amplitude, Field::region_above,
           Field::flip_pga, Field::unsafe_share, Field::undecided_share, Field::evaluated}) {
         EXPECT_NE(find_field(field.name), nullptr) << field.name;

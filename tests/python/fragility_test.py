@@ -48,10 +48,10 @@ class TheFriction(unittest.TestCase):
         needed = random.uniform(0.2, 0.8, region.shape)
         needed[random.random(region.shape) < 0.1] = np.nan
         needed[random.random(region.shape) < 0.1] = np.inf
-        data = result(region, [1, 2, 3, 4, 5], friction=needed)
+        data = result(region, [1, 2, 3, 4, 5], friction_demand=needed)
         for friction in (0.3, 0.5, 2):
             known = np.isin(region, [S, U0]) & (needed <= friction)
-            found = overturn.fragility(data, friction=friction)
+            found = overturn.fragility(data, friction_demand=friction)
             self.assertEqual(found.points.sum(), known.sum())
             self.assertEqual(found.exceeding.sum(), (known & (region == U0)).sum())
             self.assertEqual(found.undecided, (~known & (region != NOT_COMPUTED)).sum())
@@ -66,14 +66,14 @@ class TheFriction(unittest.TestCase):
             of_blocks = overturn.supported_share(data.isel(motion=[0]), friction, "block")
             self.assertEqual(of_blocks.dims, ("motion", "scale"))
         data["region"][:] = np.where(region >= UNDECIDED, S, region)
-        found = overturn.fragility(data, friction=0.5)
+        found = overturn.fragility(data, friction_demand=0.5)
         self.assertIn(f"left out: {found.undecided} of 360 points, which need a friction", found.summary())
         data["region"][:] = region
-        with self.assertRaisesRegex(ValueError, "no field friction"):
-            overturn.fragility(data.drop_vars("friction"), friction=0.5)
+        with self.assertRaisesRegex(ValueError, "no field friction_demand"):
+            overturn.fragility(data.drop_vars("friction_demand"), friction_demand=0.5)
         for wrong in (0, -1, float("nan"), float("inf"), 35, True, "0.5"):
             with self.assertRaisesRegex(ValueError, "is not a number above 0 and up to 2"):
-                overturn.fragility(data, friction=wrong)
+                overturn.fragility(data, friction_demand=wrong)
 
 
 class TheMotions(unittest.TestCase):
@@ -98,8 +98,8 @@ class TheSite(unittest.TestCase):
         region = random.choice([S, F, UNDECIDED, NOT_COMPUTED], (11, 3, 6), p=[0.6, 0.2, 0.1, 0.1])
         needed = random.uniform(0.2, 0.7, region.shape)
         name = np.array(["b", "a", "c", "a", "b", "a"])  # 3 x 2 x 1 combinations
-        data = result(region, [1, 2, 4], friction=needed).assign_coords(name=("block", name.astype(object)))
-        found = overturn.fragility(data, friction=0.6, together="name", bins=3, samples=20)
+        data = result(region, [1, 2, 4], friction_demand=needed).assign_coords(name=("block", name.astype(object)))
+        found = overturn.fragility(data, friction_demand=0.6, together="name", bins=3, samples=20)
         region = np.where((region < UNDECIDED) & (needed > 0.6), UNDECIDED, region)
         counts = dict.fromkeys(("exceeding", "not_computed", "undecided", "safe"), 0)
         for motion, scale in np.ndindex(region.shape[:2]):

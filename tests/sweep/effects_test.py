@@ -28,11 +28,11 @@ SIDE = 40  # one-time costs, such as those of the heap, are small beside those o
 TOLERANCES = {"rk45": ("1e-4", "1e-8"), "taylor": ("1e-8", "1e-12")}
 # Per point: the heap also holds the few numbers of a row, and lists of fields.
 BYTES_OF_A_POINT = {"region": 1, "angle": 8, "velocity": 8, "margin": 8, "status": 1, "error": 8, "impacts": 2,
-                    "steps": 4, "peak": 8, "fall_time": 8, "friction": 8, "normal": 8}
+                    "steps": 4, "peak": 8, "fall_time": 8, "friction_demand": 8, "normal": 8}
 BYTES_BESIDE = 0.25
 # Impacts, errors, peaks and the contact have kernels of their own. The compiler may make the one that counts impacts cheaper than the one without: it has no cost
 # that a test could rely on.
-MEASURED = [field for field in effects.FIELDS if field not in ("impacts", "error", "peak", "friction", "normal")]
+MEASURED = [field for field in effects.FIELDS if field not in ("impacts", "error", "peak", "friction_demand", "normal")]
 
 
 @functools.cache

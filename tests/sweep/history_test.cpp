@@ -128,7 +128,7 @@ double largest_friction(const History& history, const Block<double>& block)
     for (const HistorySample& sample : history.samples) {
         const bool is_beyond =
             std::abs(sample.angle) > seen_from(sample.angle < 0 ? -1.0 : 1.0, block).slenderness;
-        beyond = std::max(beyond, sample.friction);
+        beyond = std::max(beyond, sample.friction_demand);
         if (!is_beyond) {
             largest = std::max(largest, beyond);
             beyond = 0;
@@ -160,7 +160,7 @@ TEST(History, HasTheFrictionOfTheSpectrum)
         const PointRun run(scene, {point}, widest_kernel());
         const Numerics numerics{Method::taylor, 1e-11};
         const Outcome outcome = outcomes_of(run, numerics, {.contact = true, .region = true})[0];
-        const double found = outcome.friction;
+        const double found = outcome.friction_demand;
         const History history = history_of(scene, point, {.samples = 3000});
         // A record has kinks, so that peaks are narrow.
         const History forced =
@@ -185,7 +185,7 @@ TEST(History, NeedsNoFrictionAtRestUnderAJumpThatLiftsTheBlock)
         const HistoryEvent& uplift = history.events.front();
         EXPECT_EQ(uplift.kind, EventKind::uplift);
         EXPECT_EQ(uplift.before.time, 0);
-        EXPECT_EQ(uplift.before.friction, 0);
+        EXPECT_EQ(uplift.before.friction_demand, 0);
         EXPECT_EQ(uplift.after.time, 0);
         EXPECT_DOUBLE_EQ(uplift.after.ground, 4 * std::tan(0.2));
     }

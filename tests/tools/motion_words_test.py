@@ -37,7 +37,7 @@ JOB = """
     slenderness = 0.25
     restitution_of_maximum = 0.9
     [output]
-    fields = ["region", "angle", "velocity", "peak", "friction"]
+    fields = ["region", "angle", "velocity", "peak", "friction_demand"]
     """
 RUN = {"spectrum": "run", "boundary": "boundary", "history": "history"}  # command by product
 TOOLS = {"spectra": "plot_spectrum", "boundaries": "plot_boundary", "histories": "plot_history",

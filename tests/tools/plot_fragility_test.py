@@ -122,11 +122,11 @@ class TestAPicture(Curve):
         self.assertLess(*counts)
 
     def test_of_a_friction_coefficient_leaves_out_what_may_slip(self):
-        self.overturn("run", "friction.h5", 'output.fields=["region", "friction"]')
+        self.overturn("run", "friction.h5", 'output.fields=["region", "friction_demand"]')
         with h5py.File(self.folder / "friction.h5") as file:
-            supported = np.count_nonzero(file["friction"][:] <= 0.3)
+            supported = np.count_nonzero(file["friction_demand"][:] <= 0.3)
         self.assertTrue(0 < supported < 600)
-        text, words = self.words("friction.h5", "--friction", "0.3")
+        text, words = self.words("friction.h5", "--friction-demand", "0.3")
         self.assertIn(f"of {supported} points with a verdict", text)
         self.assertIn("need a friction coefficient above 0.3", words)
 
@@ -167,8 +167,8 @@ class TestACurveRefused(Curve):
         self.refuses(2, "'pgv' is not a property of the blocks", "result.h5", "--by", "pgv")
         self.overturn("run", "region.h5", 'output.fields=["region"]')
         self.refuses(2, "has no field peak", "region.h5", "--limit", "1")
-        self.refuses(2, "has no field friction", "region.h5", "--friction", "0.5")
-        self.refuses(2, "friction = 35.0 is not a number above 0", "region.h5", "--friction", "35")
+        self.refuses(2, "has no field friction_demand", "region.h5", "--friction-demand", "0.5")
+        self.refuses(2, "friction_demand = 35.0 is not a number above 0", "region.h5", "--friction-demand", "35")
 
 
 if __name__ == "__main__":

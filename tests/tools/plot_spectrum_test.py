@@ -51,7 +51,7 @@ class Picture(InAFolder):
 
 def write_result(file, axes, codes, computed, has_restitution=True):
     """Writes a spectrum over these axes, in which each point is a tile."""
-    file.attrs.update({"kind": "overturning spectrum", "format_version": 4})
+    file.attrs.update({"kind": "overturning spectrum", "format_version": 5})
     for name, values in axes.items():
         file[name] = values
         file[name].make_scale()
@@ -436,8 +436,8 @@ class TestARefusal(Picture):
         self.spectrum([[S]])
         for version, advice in ((2, "Read it with the overturn that wrote it, or compute it again"),
                                 (3, "Read it with overturn 2.0, or compute it again with this version."),
-                                (5, "Use a newer overturn.")):
-            words = f"has format version {version}, but this version of overturn reads version 4. {advice}"
+                                (6, "Use a newer overturn.")):
+            words = f"has format version {version}, but this version of overturn reads versions 4 and 5. {advice}"
             self.change(lambda file: file.attrs.update({"format_version": version, "program_version": "1.0.0"}))
             self.refuses(74, words, "spectrum.h5")
             with self.assertRaisesRegex(ValueError, re.escape(words)):

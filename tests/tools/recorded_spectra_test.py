@@ -124,7 +124,7 @@ class TestThePlane(Recorded):
     def test_refuses_a_boundary_under_a_pulse(self):
         self.recorded([[S]])
         with h5py.File(self.folder / "boundary.h5", "w") as file:
-            file.attrs.update({"kind": "overturning boundary", "format_version": 4})
+            file.attrs.update({"kind": "overturning boundary", "format_version": 5})
             file["run/checksum"] = np.zeros(1, np.uint64)
         self.refuses(74, "Omit --boundary", "--boundary", "boundary.h5")
 

@@ -13,11 +13,11 @@ from overturn.marked_points import slips
 
 class TestSlippingBlocks(Recorded):
     def report(self, *arguments):
-        return self.output_of("spectrum.h5", "-o", "picture.png", "--friction", *arguments)
+        return self.output_of("spectrum.h5", "-o", "picture.png", "--friction-demand", *arguments)
 
     def veiled(self, coefficient):
         """Returns the share of the pixels in each quarter of the map that differs from one without friction."""
-        plain, hatched = self.picture(), self.picture("--friction", coefficient)
+        plain, hatched = self.picture(), self.picture("--friction-demand", coefficient)
         differs = (plain != hatched).any(axis=2)
         height, width = differs.shape
         panel = differs[int(0.15 * height):int(0.9 * height), int(0.081 * width):int(0.697 * width)]
@@ -25,17 +25,17 @@ class TestSlippingBlocks(Recorded):
 
     def test_are_hatched_and_counted(self):
         self.recorded([np.repeat([S, F_MINUS, S, S], 16)])
-        self.add("friction", np.repeat([0.499, 0.501, np.inf, np.nan], 16))
+        self.add("friction_demand", np.repeat([0.499, 0.501, np.inf, np.nan], 16))
         self.assertIn("may slip with a friction coefficient of 0.5: 48 of 64 points with a verdict (75 %)",
                       self.report("0.5"))
-        self.assertIn("coefficient of 0.5", self.words("--friction", "0.5"))
+        self.assertIn("coefficient of 0.5", self.words("--friction-demand", "0.5"))
         shares = self.veiled("0.5")
         self.assertLess(shares[0], 0.02)
         self.assertGreater(min(shares[1:]), 0.98)
 
     def test_are_not_counted_without_a_verdict(self):
         self.recorded([[S, UNDECIDED, S, NOT_COMPUTED]], computed=[[1, 1, 0, 0]])
-        self.add("friction", [0.3, np.nan, 5.0, np.nan])
+        self.add("friction_demand", [0.3, np.nan, 5.0, np.nan])
         self.assertIn("0 of 1 points with a verdict (0 %)\nunfinished: 2 of 4 tiles computed\n", self.report("0.5"))
         self.assertLess(max(self.veiled("0.5")), 0.02)
 
@@ -43,16 +43,16 @@ class TestSlippingBlocks(Recorded):
         self.recorded([np.full(40_000, S)])
         needed = np.full(40_000, 0.2)
         needed[15_000] = 0.9
-        self.add("friction", needed)
+        self.add("friction_demand", needed)
         self.assertIn("1 of 40000 points", self.report("0.5"))
         self.assertGreater(self.veiled("0.5")[1], 0)
 
     def test_require_the_field_and_a_coefficient(self):
         self.recorded([[S]])
-        self.refuses(74, "no field friction; add it to output.fields", "--friction", "0.5")
+        self.refuses(74, "no field friction_demand; add it to output.fields", "--friction-demand", "0.5")
         for word in ("0", "-1", "nan", "inf", "35", "much"):
-            self.refuses(2, "argument --friction: ", "--friction", word)
-        self.refuses(2, "the tangent of the friction angle", "--friction", "35")
+            self.refuses(2, "argument --friction-demand: ", "--friction-demand", word)
+        self.refuses(2, "the tangent of the friction angle", "--friction-demand", "35")
 
     def test_are_those_with_a_verdict_and_without_enough_friction(self):
         random = np.random.default_rng(1)

@@ -11,7 +11,7 @@ from building import add_build_argument, add_output_argument, build, fail, run_o
 
 METHODS = ("rk45", "taylor")
 FIELDS = ("angle", "velocity", "margin", "error", "peak", "fall_time", "impacts", "steps",
-          "friction", "normal", "status")  # in addition to the region
+          "friction_demand", "normal", "status")  # in addition to the region
 KERNEL = "avx2"
 
 EXPLANATION = """\

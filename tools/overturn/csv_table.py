@@ -38,9 +38,9 @@ REGION = "region"  # a column of every table of a spectrum
 FIELDS = {*tables.FIELDS, "evaluated"}
 # The last columns of every kind of table, and one that it always has.
 LAST = ((FIELDS, REGION), ({"flip_amplitude", "flip_pga", "region_below", "region_above"}, "flip_amplitude"),
-        ({"acceleration", "angle", "friction", "ground", "q", "velocity"}, "angle"),
+        ({"acceleration", "angle", "friction_demand", "ground", "q", "velocity"}, "angle"),
         ({f"{name}_{side}" for side in ("before", "after")
-          for name in ("acceleration", "angle", "friction", "ground", "q", "velocity")}, "angle_after"))
+          for name in ("acceleration", "angle", "friction_demand", "ground", "q", "velocity")}, "angle_after"))
 FIRST = {*tables.QUANTITIES, *COUNTED, "crossing", "time", "setting", "frequency_parameter_minus"}
 NUMBER = re.compile("[-+.0-9einfa]*")  # inf and nan, too
 

@@ -23,7 +23,7 @@ class Outcome(TypedDict, total=False):
     error: NDArray[float64]  #: bound on the error of the margin
     peak: NDArray[float64]  #: largest |theta| / alpha
     fall_time: NDArray[float64]  #: time p t from uplift to |theta| = pi/2
-    friction: NDArray[float64]  #: friction coefficient needed
+    friction_demand: NDArray[float64]  #: friction coefficient needed
     normal: NDArray[float64]  #: smallest normal force over that at rest
     impacts: NDArray[uint16]  #: impacts during the ground motion
     steps: NDArray[uint32]  #: integration steps tried

@@ -16,7 +16,7 @@ from scipy.special import ndtr
 from overturn import lognormal_fit
 from overturn.arguments import count, expect_dataset, number
 from overturn.block_groups import blocks_at_one_site, counted
-from overturn.friction import codes_of, decided_points, expect_coefficient, slipping_points
+from overturn.friction import codes_of, decided_points, expect_coefficient, slipping_points, takes_friction_demand
 from overturn.joint_blocks import combined
 from overturn.motion_words import is_of_floor, measure_named, variable_of
 from overturn.output_file import new_file
@@ -112,7 +112,8 @@ def _is_own(beginning):
             and all(_ROW.fullmatch(row) for row in rows[1:]))
 
 
-def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = None, *, friction: float | None = None,
+@takes_friction_demand
+def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = None, *, friction_demand: float | None = None,
               together: str | None = None, bins: int = 10, samples: int = 1000, seed: int = 1) -> Fragility:
     """Returns the fragility curve of a result under records, see open(). All its blocks are pooled and count
     alike: choose some by dataset.isel() or dataset.sel() first.
@@ -122,7 +123,7 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
         the records are scaled like the motions. Under motions of a floor, these are measures of the floor, and the
         curve names them "pfa", "pfv", ...; "ground_pga" is the PGA of the ground that caused them.
     limit: in (0, 1], counts points whose field peak is above it; None counts those that overturn.
-    friction: coefficient between block and ground, up to 2; points that need more, see the field friction, have no
+    friction_demand: coefficient between block and ground, up to 2; points that need more, see the field friction_demand, have no
         verdict.
     together: column or axis that distinguishes the blocks of one site, such as "block". A point is then one block of
         each of its values, under one motion in one direction, and exceeds if one of them does: survival is multiplied
@@ -140,8 +141,8 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
     if limit is not None and not 0 < number("limit", limit) <= 1:
         raise ValueError(f"limit = {limit} must be in (0, 1]: the peak |theta| / alpha that counts as exceeding, not "
                          "an angle or a percentage.")
-    if friction is not None:
-        expect_coefficient(friction)
+    if friction_demand is not None:
+        expect_coefficient(friction_demand)
     measure, im = measure_of(dataset, im), name_of_measure(dataset, im)
     of_blocks, parts, notes = _blocks(dataset["region"]), [dataset], ()
     if together is not None:
@@ -150,7 +151,7 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
         if dimension in measure.dims:
             measure = measure.max(dimension, keep_attrs=True)
             notes = f"{im} is the largest of those in the directions of the blocks",
-    cells = combined([cells_of(part, measure, limit, friction, together is not None) for part in parts])
+    cells = combined([cells_of(part, measure, limit, friction_demand, together is not None) for part in parts])
     edges = edges_of(cells, bins)
     counts = _counts(cells)
     value = np.geomspace(edges[0], edges[-1], VALUES_OF_CURVE) if len(edges) else np.empty(0)
@@ -162,7 +163,7 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
     return Fragility(im, units_of(measure, im), limit, edges, **_histograms(cells, edges),
                      undecided=int(cells["undecided"].sum()), not_computed=int(cells["not_computed"].sum()),
                      motions=counts.points.shape[0], together=together or "", **of_blocks, **_fitted(fit, value),
-                     notes=(*notes, *_left_out(cells, im, friction), *_without_slipping(fit, cells), *[reason] * bool(reason),
+                     notes=(*notes, *_left_out(cells, im, friction_demand), *_without_slipping(fit, cells), *[reason] * bool(reason),
                             *_extrapolated(fit, edges, im), *_without_band(fit, counts, samples)))
 
 
@@ -225,7 +226,7 @@ def units_of(measure, im):
     return "g" if im in ("pga", "pfa") and units == "1" else units
 
 
-def cells_of(dataset, measure, limit, friction, by_direction=False):
+def cells_of(dataset, measure, limit, friction_demand, by_direction=False):
     """Returns arrays with an entry per motion and value of the measure, and per direction if requested: the motion, the
     value, and the numbers of points of each kind."""
     region = dataset["region"]
@@ -239,8 +240,8 @@ def cells_of(dataset, measure, limit, friction, by_direction=False):
     else:
         raise ValueError("this result has no field peak, which limit is compared with. Add it to output.fields.")
     slipping = decided & False
-    if friction is not None:
-        slipping = slipping_points(dataset, decided, friction)
+    if friction_demand is not None:
+        slipping = slipping_points(dataset, decided, friction_demand)
         decided, exceeding = decided & ~slipping, exceeding & ~slipping
     motion = _numbered(dataset)
     kept = [name for name in region.dims if name in (*measure.dims, *motion.dims, *["direction"] * by_direction)]
@@ -334,7 +335,7 @@ def _why_no_fit(counts, im, verb):
     return ""
 
 
-def _left_out(cells, im, friction):
+def _left_out(cells, im, friction_demand):
     """Returns notes on the points that are not in the curve."""
     undecided, not_computed = (int(cells[name].sum()) for name in ("undecided", "not_computed"))
     total = int(cells["points"].sum()) + undecided + not_computed
@@ -344,16 +345,16 @@ def _left_out(cells, im, friction):
     return ([f"the result is unfinished: {not_computed} of {total} points are not computed and left out"]
             * (not_computed > 0)
             + [f"{without} of {motions} motions have no point with a verdict"] * (without > 0)
-            + [f"left out: {undecided} of {total} points, which {_undecided(cells, friction)}"] * (undecided > 0)
+            + [f"left out: {undecided} of {total} points, which {_undecided(cells, friction_demand)}"] * (undecided > 0)
             + [f"left out: {unmeasured} points whose {im} is not positive"] * (unmeasured > 0))
 
 
-def _undecided(cells, friction):
+def _undecided(cells, friction_demand):
     """Returns why points are undecided."""
     undecided, slipping = (int(cells[name].sum()) for name in ("undecided", "slipping"))
     if not slipping:
         return "are undecided"
-    need = f"need a friction coefficient above {friction:g}, or an unknown one"
+    need = f"need a friction coefficient above {friction_demand:g}, or an unknown one"
     return need if slipping == undecided else f"are undecided, {slipping} of them because they {need}"
 
 

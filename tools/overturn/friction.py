@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import numbers
 from typing import TYPE_CHECKING
 
@@ -15,28 +16,39 @@ if TYPE_CHECKING:
 LARGEST = 2  # rubber on rock has 1
 
 
-def expect_coefficient(friction):
+def takes_friction_demand(function):
+    """Decorates a function whose argument friction_demand was called friction."""
+    @functools.wraps(function)
+    def checked(*arguments, **named):
+        if "friction" in named:
+            raise TypeError(f"{function.__name__}() has no argument friction: it is called friction_demand now.")
+        return function(*arguments, **named)
+    return checked
+
+
+def expect_coefficient(friction_demand):
     """Raises ValueError unless this is a friction coefficient, not an angle."""
-    if isinstance(friction, bool) or not isinstance(friction, numbers.Real) or not 0 < friction <= LARGEST:
-        raise ValueError(f"friction = {friction!r} is not a number above 0 and up to {LARGEST}. Give the coefficient "
+    if isinstance(friction_demand, bool) or not isinstance(friction_demand, numbers.Real) or not 0 < friction_demand <= LARGEST:
+        raise ValueError(f"friction_demand = {friction_demand!r} is not a number above 0 and up to {LARGEST}. Give the coefficient "
                          "between block and ground, the tangent of the friction angle.")
 
 
-def supported_share(dataset: xarray.Dataset, friction: float,
+@takes_friction_demand
+def supported_share(dataset: xarray.Dataset, friction_demand: float,
                     dim: Hashable | Iterable[Hashable] | None = None) -> xarray.DataArray:
     """Returns the share of the verdicts of a result, see open(), that hold with a friction coefficient [1].
 
-    friction: between block and ground, up to 2. A verdict whose field friction is larger, infinite or unknown does
+    friction_demand: between block and ground, up to 2. A verdict whose field friction_demand is larger, infinite or unknown does
         not hold.
     dim: dimensions over which points are counted, such as "motion"; by default all. The share is NaN where no point has
         a verdict.
 
-    Raises ValueError if the dataset lacks the field friction.
+    Raises ValueError if the dataset lacks the field friction_demand.
     """
-    expect_coefficient(friction)
+    expect_coefficient(friction_demand)
     expect_dataset(dataset)
     decided = decided_points(dataset["region"])
-    return (decided & ~slipping_points(dataset, decided, friction)).sum(dim) / decided.sum(dim)
+    return (decided & ~slipping_points(dataset, decided, friction_demand)).sum(dim) / decided.sum(dim)
 
 
 def decided_points(region):
@@ -55,8 +67,8 @@ def codes_of(region):
     return dict(zip(region.attrs["flag_meanings"].split(), region.attrs["flag_values"]))
 
 
-def slipping_points(dataset, decided, friction):
+def slipping_points(dataset, decided, friction_demand):
     """Returns whether the verdict of each point needs more friction than this coefficient, or an unknown one."""
-    if "friction" not in dataset:
-        raise ValueError("this result has no field friction. Add it to output.fields.")
-    return decided & ~(dataset["friction"] <= friction)
+    if "friction_demand" not in dataset:
+        raise ValueError("this result has no field friction_demand. Add it to output.fields.")
+    return decided & ~(dataset["friction_demand"] <= friction_demand)

@@ -65,7 +65,7 @@ class Misjudged(Marks):
 
 
 class Slipping(Marks):
-    FIELD, REGIONS, KIND = "friction", SAFE + UNSAFE, "points with a verdict"
+    FIELD, REGIONS, KIND = "friction_demand", SAFE + UNSAFE, "points with a verdict"
 
     def __init__(self, coefficient):
         self.coefficient = coefficient
@@ -77,7 +77,7 @@ class Slipping(Marks):
         """The same; a pixel of several points shows the worst."""
         pixels = len(codes)
         slipping = plane.highest(lambda rows: self.are_marked(
-            plane.read("region", rows), plane.read("friction", rows)).astype(np.uint16), up, across, pixels) > 0
+            plane.read("region", rows), plane.read("friction_demand", rows)).astype(np.uint16), up, across, pixels) > 0
         slipping[up.is_between(pixels)] = False
         slipping[:, across.is_between(pixels)] = False
         row, column = np.indices(slipping.shape)

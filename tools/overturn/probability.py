@@ -11,6 +11,7 @@ from scipy.special import ndtr
 
 from overturn.arguments import count, number, numbers
 from overturn.fragility_curve import Fragility, cells_of, edges_of, is_measurable, measure_of, name_of_measure, units_of
+from overturn.friction import takes_friction_demand
 from overturn.lognormal_fit import LEAST_MOTIONS
 
 if TYPE_CHECKING:
@@ -167,8 +168,9 @@ def _mass(density, nodes, weights, x):
     return mass / np.where(whole, total, 1)[:, None], np.where(whole, 0, 1 - total)
 
 
+@takes_friction_demand
 def binned_marginal(dataset: xarray.Dataset, x: str, y: str, density: Callable, *, limit: float | None = None,
-                    friction: float | None = None, bins: tuple[int, int] = (10, 10), samples: int = 1000,
+                    friction_demand: float | None = None, bins: tuple[int, int] = (10, 10), samples: int = 1000,
                     seed: int = 1) -> Probability:
     """Returns P(x) = integral of P(x, y) f(y | x) dy of a result under records, where P(x, y) is the share of the
     points that overturns in bins of two intensity measures, evenly spaced in their logarithms. Points without a verdict
@@ -177,7 +179,7 @@ def binned_marginal(dataset: xarray.Dataset, x: str, y: str, density: Callable, 
 
     x, y: measures as for fragility(), or ratios of two, such as "pgv/pga".
     density(y, x): f, as for marginal().
-    limit, friction, samples, seed: as for fragility(). There are no samples with fewer than ten motions.
+    limit, friction_demand, samples, seed: as for fragility(). There are no samples with fewer than ten motions.
 
     Raises ValueError if the dataset lacks what is needed.
     """
@@ -187,7 +189,7 @@ def binned_marginal(dataset: xarray.Dataset, x: str, y: str, density: Callable, 
     bins = [count("bins", each) for each in bins]
     samples, seed = count("samples", samples, least=0), count("seed", seed, least=0)
     of_x, of_y = xarray.broadcast(_measure(dataset, x), _measure(dataset, y))
-    cells, second = (cells_of(dataset, measure, limit, friction) for measure in (of_x, of_y))
+    cells, second = (cells_of(dataset, measure, limit, friction_demand) for measure in (of_x, of_y))
     edges = [edges_of(each, count) for each, count in zip((cells, second), bins)]
     if not (len(edges[0]) and len(edges[1])):
         raise ValueError("no point of this result has a verdict. Compute the missing points.")

@@ -12,7 +12,7 @@ from overturn.output_file import OutputError
 from overturn.tool import ToolError
 
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
-FORMAT = 4
+FORMAT, FORMER_FORMAT = 5, 4  # in the former, the field friction_demand is called friction
 SPECTRUM, BOUNDARY, HISTORY, STUDY = "overturning spectrum", "overturning boundary", "rocking history", "accuracy study"
 KINDS = {SPECTRUM: "a spectrum written by overturn run", BOUNDARY: "a boundary written by overturn boundary",
          HISTORY: "a history written by overturn history", STUDY: "a study written by overturn accuracy"}
@@ -75,6 +75,8 @@ class Result(Mapping):
         self.file, self.filename = file, file.filename
         self.attrs = attributes_of(file)
         self.variables = {name: variable_of(data) for name, data in file.items() if is_variable(data)}
+        if self.attrs.get("format_version") == FORMER_FORMAT and "friction" in self.variables:
+            self.variables["friction_demand"] = self.variables.pop("friction")
         named = dict.fromkeys(word for data in file.values() for word in text_of(data, "coordinates").split())
         self.coordinates = [*named, *(name for name, each in self.items() if each.dimensions == (name,))]
         self.tiles = Tiles(self.run.get("checksum"), self.sizes) if self.text("kind") in (SPECTRUM, BOUNDARY) else None
@@ -182,12 +184,12 @@ def open_file(path, kind=None):
         stack.enter_context(file)
         if text_of(file, "kind") not in ([kind] if kind else KINDS):
             raise ValueError(f"\"{path}\" is not {KINDS.get(kind, 'a result of overturn')}.")
-        if (version := file.attrs.get("format_version", 1)) != FORMAT:
+        if (version := file.attrs.get("format_version", 1)) not in (FORMAT, FORMER_FORMAT):
             writer = "overturn 2.0" if version == 3 else "the overturn that wrote it"
             advice = "Use a newer overturn" if version > FORMAT else (
                 f"Read it with {writer}, or compute it again with this version")
-            raise ValueError(f"\"{path}\" has format version {version}, but this version of overturn reads version "
-                             f"{FORMAT}. {advice}.")
+            raise ValueError(f"\"{path}\" has format version {version}, but this version of overturn reads versions "
+                             f"{FORMER_FORMAT} and {FORMAT}. {advice}.")
         try:
             result = Result(file)
         except (OSError, KeyError) as error:

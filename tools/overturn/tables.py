@@ -1,6 +1,6 @@
 """Fields of a spectrum, quantities of its points. Written by tests/python/stub_test.py --write."""
 
-FIELDS = ("region", "angle", "velocity", "margin", "error", "peak", "fall_time", "friction", "normal", "impacts",
+FIELDS = ("region", "angle", "velocity", "margin", "error", "peak", "fall_time", "friction_demand", "normal", "impacts",
           "steps", "status")
 # Units in sentences, role, and the quantity of which this is another spelling.
 QUANTITIES = {

@@ -23,6 +23,13 @@ class ToolError(Exception):
         self.code = code
 
 
+class Renamed(argparse.Action):
+    """An option that has another name now, `const`."""
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        parser.error(f"{option_string} is called {self.const} now")
+
+
 def parser_of(name, description, example, written_by=None):
     """Returns the parser of a tool; with the argument FILE.h5 if it reads a file that a command writes."""
     parser = argparse.ArgumentParser(prog=name, description=description, epilog=example,

@@ -37,6 +37,7 @@ inline FileKind kind_of(const Product& product)
 /// The metadata that every kind of result file contains.
 struct FileOrigin {
     FileKind kind = FileKind::spectrum;
+    std::int64_t format = 0; ///< version
     std::string title;
     MotionOf motion_of = MotionOf::ground;
     std::string program_version;

@@ -24,9 +24,9 @@ struct Field {
     bool operator==(const Field&) const = default;
 
     /// Those that are known by name outside their row.
-    static const Field region, angle, velocity, margin, error, peak, fall_time, friction, normal,
-        impacts, steps, status, flip_amplitude, region_below, region_above, flip_pga, unsafe_share,
-        undecided_share, evaluated;
+    static const Field region, angle, velocity, margin, error, peak, fall_time, friction_demand,
+        normal, impacts, steps, status, flip_amplitude, region_below, region_above, flip_pga,
+        unsafe_share, undecided_share, evaluated;
 };
 
 inline constexpr Field Field::region{"region"};
@@ -36,7 +36,7 @@ inline constexpr Field Field::margin{"margin"};
 inline constexpr Field Field::error{"error"};
 inline constexpr Field Field::peak{"peak"};
 inline constexpr Field Field::fall_time{"fall_time"};
-inline constexpr Field Field::friction{"friction"};
+inline constexpr Field Field::friction_demand{"friction_demand"};
 inline constexpr Field Field::normal{"normal"};
 inline constexpr Field Field::impacts{"impacts"};
 inline constexpr Field Field::steps{"steps"};

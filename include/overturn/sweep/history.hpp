@@ -28,13 +28,13 @@ inline constexpr int most_impacts_shown = 100'000;
 
 /// The state of the block at one time. An event has two samples, one before and one after it.
 struct HistorySample {
-    double time;         ///< since the pulse began [1/p]
-    double angle;        ///< theta [rad]
-    double velocity;     ///< theta' = d theta / d tau [rad]
-    double acceleration; ///< theta'' [rad]
-    double q;            ///< 4 sin^2((alpha - |theta|)/2) - theta'^2 (Eq. 12) [rad^2]
-    double ground;       ///< acceleration of the ground over g [1]
-    double friction;     ///< coefficient that the contact needs [1]; NaN in the linear theory
+    double time;            ///< since the pulse began [1/p]
+    double angle;           ///< theta [rad]
+    double velocity;        ///< theta' = d theta / d tau [rad]
+    double acceleration;    ///< theta'' [rad]
+    double q;               ///< 4 sin^2((alpha - |theta|)/2) - theta'^2 (Eq. 12) [rad^2]
+    double ground;          ///< acceleration of the ground over g [1]
+    double friction_demand; ///< coefficient that the contact needs [1]; NaN in the linear theory
 };
 
 struct HistoryEvent {

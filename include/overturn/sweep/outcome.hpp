@@ -35,17 +35,17 @@ struct Outcome {
     std::uint8_t flags; ///< of the field `status`, and outcome_flag
 
     Region region;
-    double margin;         ///< [1]
-    double error;          ///< of the margin
-    double impacts;        ///< count
-    double steps;          ///< tried
-    double phase;          ///< end of the motion, or phase of the fall [rad or samples]
-    double peak;           ///< the largest |theta| [rad]
-    double lowest_turn;    ///< see ForcedEnd [rad]
-    double softest_impact; ///< see ForcedEnd [rad]
-    double last_impact;    ///< see ForcedEnd [rad]
-    double friction;       ///< see ContactDemand [1]
-    double normal;         ///< see ContactDemand [1]
+    double margin;          ///< [1]
+    double error;           ///< of the margin
+    double impacts;         ///< count
+    double steps;           ///< tried
+    double phase;           ///< end of the motion, or phase of the fall [rad or samples]
+    double peak;            ///< the largest |theta| [rad]
+    double lowest_turn;     ///< see ForcedEnd [rad]
+    double softest_impact;  ///< see ForcedEnd [rad]
+    double last_impact;     ///< see ForcedEnd [rad]
+    double friction_demand; ///< see ContactDemand::friction [1]
+    double normal;          ///< see ContactDemand [1]
 
     State<double> end() const { return {tilt, rate, side}; }
     bool has(std::uint8_t any_of_flags) const { return (flags & any_of_flags) != 0; }

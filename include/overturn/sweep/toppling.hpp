@@ -27,10 +27,10 @@ struct ToppleQuestion {
 };
 
 struct ToppleAnswer {
-    double direction = 0;           ///< of the motion [degree]
-    std::optional<Verdict> verdict; ///< nullopt if no strength is asked for
-    double peak = 0;                ///< |theta| / alpha
-    std::optional<double> friction; ///< see Field::friction; nullopt in the linear theory
+    double direction = 0;                  ///< of the motion [degree]
+    std::optional<Verdict> verdict;        ///< nullopt if no strength is asked for
+    double peak = 0;                       ///< |theta| / alpha
+    std::optional<double> friction_demand; ///< see the field; nullopt in the linear theory
     /// For each toppling range of the requested restitution: the largest friction from uplift to
     /// its lower end, NaN if one is unknown; empty in the linear theory.
     std::vector<double> friction_to_topple;

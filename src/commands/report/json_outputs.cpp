@@ -96,8 +96,8 @@ void add(Json& members, const DirectedAnswer& directed, const std::string* verdi
     members["pga"] = if_known(pga);
     members["peak_of_alpha"] = pga ? Json(answer.peak) : Json();
     members["peak_degrees"] = pga && alpha ? Json(in_degrees(answer.peak * *alpha)) : Json();
-    members["friction"] = if_known(answer.friction);
-    members["lifts_off"] = answer.friction && std::isinf(*answer.friction);
+    members["friction_demand"] = if_known(answer.friction_demand);
+    members["lifts_off"] = answer.friction_demand && std::isinf(*answer.friction_demand);
     members["friction_to_topple"] = answer.friction_to_topple;
     members["lifting_pga"] = answer.lifting_pga;
     add(members, answer.requested(), pga);

@@ -161,8 +161,8 @@ void print_answer(const std::vector<DirectedAnswer>& all, const ToppleOptions& o
         if (answer.verdict) {
             print_row("peak tilt", peak_text(answer.peak, job.problem));
         }
-        if (answer.friction) {
-            print_row("friction", job.problem.scene.worded(friction_text(*answer.friction)));
+        if (answer.friction_demand) {
+            print_row("friction", job.problem.scene.worded(friction_text(*answer.friction_demand)));
         }
         print_ranges(job.problem.scene, answer);
     }

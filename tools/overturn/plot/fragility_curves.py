@@ -1,6 +1,7 @@
 """Plots fragility curves of a result under records: the fraction of the blocks that overturn against
 intensity measures, with lognormal fits and their confidence."""
 
+import argparse
 import contextlib
 import dataclasses
 import itertools
@@ -16,7 +17,7 @@ from overturn.captions import escaped, plain, shortened
 from overturn.output_file import save
 from overturn.plot.headings import LINE, POINTS, wrapped
 from overturn.ticks import name_ticks
-from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
+from overturn.tool import USAGE, Renamed, ToolError, parse_with_picture, parser_of
 
 EXAMPLE = """\
 example:
@@ -156,8 +157,9 @@ def add_curve_arguments(parser, bins):
     parser.add_argument("--limit", type=float, metavar="PEAK",
                         help="count the points whose field peak, the largest |theta| / alpha, is above PEAK, at "
                              "most 1; otherwise those that overturn")
-    parser.add_argument("--friction", type=float, metavar="MU",
-                        help="friction coefficient between block and ground: points whose field friction is above MU "
+    parser.add_argument("--friction", action=Renamed, const="--friction-demand", help=argparse.SUPPRESS)
+    parser.add_argument("--friction-demand", type=float, metavar="MU",
+                        help="friction coefficient between block and ground: points whose field friction_demand is above MU "
                              "have no verdict")
     parser.add_argument("--bins", type=int, metavar="N", default=bins,
                         help="number of bins, which do not change the fit (default: %(default)s)")
@@ -167,7 +169,7 @@ def add_curve_arguments(parser, bins):
 
 
 def compute_curve(dataset, im, arguments, **further):
-    return overturn.fragility(dataset, im, arguments.limit, friction=arguments.friction, bins=arguments.bins,
+    return overturn.fragility(dataset, im, arguments.limit, friction_demand=arguments.friction_demand, bins=arguments.bins,
                               samples=arguments.samples, seed=arguments.seed, **further)
 
 

@@ -51,13 +51,13 @@ PULSE_PANELS = (
     ("velocity", r"velocity  $\theta'$ [rad]", 1),
     ("acceleration", r"acceleration  $\theta''$ [rad]", 1),
     ("q", r"$q$ [rad$^2$]", 1),
-    ("friction", "friction  $|H|/N$", 0.8),
+    ("friction_demand", "friction  $|H|/N$", 0.8),
 )
 RECORD_PANELS = (("ground", r"ground  $\ddot u_g/g$", 1), ("angle", r"tilt  $\theta/\alpha$", 1.6),
-                 ("friction", "friction  $|H|/N$", 0.8))
+                 ("friction_demand", "friction  $|H|/N$", 0.8))
 PHYSICAL_LABELS = {"ground": "ground [g]", "angle": "tilt [degrees]", "velocity": "velocity [degrees/s]",
                    "acceleration": "acceleration [degrees/s²]", "q": "$q$ [degrees²/s²]",
-                   "friction": "friction  $|H|/N$"}
+                   "friction_demand": "friction  $|H|/N$"}
 # Attribute, symbol, unit of the point, in the order of the picture.
 AXES = (("frequency", r"$\omega_p/p$", ""), ("amplitude", r"$a_p/(g\,{threshold})$", ""),
         ("pulse_period", "period", " s"), ("pulse_frequency", "frequency", " Hz"),
@@ -88,7 +88,7 @@ class History:
         self.is_recorded = is_recorded(file)
         panels = RECORD_PANELS if self.is_recorded else PULSE_PANELS
         has_friction = not is_linear(file)
-        self.panels = [panel for panel in panels if panel[0] != "friction" or has_friction]
+        self.panels = [panel for panel in panels if panel[0] != "friction_demand" or has_friction]
         self.is_in_seconds = self.is_recorded or units == PHYSICAL
         sides = [float(file.attrs[name]) for name in slendernesses(file)]
         slenderness = sides[0]
@@ -108,11 +108,11 @@ class History:
             raise ToolError(f"\"{file.filename}\" has no data from {start:g}{unit} to "
                             f"{until:g}{unit}.")
         rate = per_time / per_angle
-        factors = {"ground": 1, "friction": 1, "angle": 1 / per_angle, "velocity": rate,
+        factors = {"ground": 1, "friction_demand": 1, "angle": 1 / per_angle, "velocity": rate,
                    "acceleration": per_time * rate, "q": rate**2}
         self.values = {name: factors[name] * file[name][:][shown] for name, _, _ in self.panels}
         if has_friction:
-            self.values["friction"] = of_standing(self.values["friction"], file["angle"][:][shown], sides)
+            self.values["friction_demand"] = of_standing(self.values["friction_demand"], file["angle"][:][shown], sides)
         events = file.events()
         self.events = [(when, kind, angle) for when, kind, angle in zip(
             events["time"] / per_time, events["kind"], events["angle_after"] / per_angle)
@@ -142,7 +142,7 @@ def draw_panel(axes, history, name, label):
     if len(impacts) <= MOST_IMPACT_LINES and not history.is_recorded:
         for when in impacts:
             axes.axvline(when, color="0.75", linewidth=0.6, zorder=1)
-    linewidth = 0.7 if name in ("ground", "friction") and history.is_recorded else 1.3
+    linewidth = 0.7 if name in ("ground", "friction_demand") and history.is_recorded else 1.3
     axes.plot(history.time, values, color=INK, linewidth=linewidth, zorder=3)
     known = values[np.isfinite(values)] if np.isfinite(values).any() else np.zeros(1)
     spread = np.ptp(known) or 1
@@ -267,7 +267,7 @@ def name_time(panel, file, history):
 def draw_figure(file, history, units):
     title = title_of(file, ("plane", "block")) or ground_text(file)
     words = Heading(plain(title), describe(file, units), 8.72, (11, 9))
-    height = (5.4 if history.is_recorded else 9.2) + 1.3 * ("friction" in history.values) + words.extra
+    height = (5.4 if history.is_recorded else 9.2) + 1.3 * ("friction_demand" in history.values) + words.extra
     figure, panels = pyplot.subplots(len(history.panels), 1, sharex=True, figsize=(9, height),
                                      height_ratios=[share for _, _, share in history.panels])
     for axes, (name, label, _) in zip(panels, history.panels):

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from overturn.captions import ground_word, heading, panel_titles, plain, subtitle
 from overturn.choice import add_choice_arguments, sheet_of
-from overturn.friction import expect_coefficient
+from overturn.friction import expect_coefficient, takes_friction_demand
 from overturn.marked_points import Misjudged, Slipping
 from overturn.output_file import save
 from overturn.overlay import draw_boundary, open_boundary
@@ -19,7 +19,7 @@ from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.region_labels import Label, add_label_argument, thinned, write_label
 from overturn.regions import coloured, legend_entries
 from overturn.result_file import SPECTRUM, open_result
-from overturn.tool import parse_with_picture, parser_of
+from overturn.tool import Renamed, parse_with_picture, parser_of
 from overturn.units import add_units_argument, axes_of_plane, expect_size, name_axes
 
 EXAMPLE = """\
@@ -44,8 +44,8 @@ that it misjudges, store the field peak:
   tools/plot_spectrum suite.h5 --practice
 
 A verdict holds if the friction coefficient is large enough. To hatch the points that need more than
-0.5, store the field friction:
-  tools/plot_spectrum friction.h5 --friction 0.5
+0.5, store the field friction_demand:
+  tools/plot_spectrum friction.h5 --friction-demand 0.5
 
 Axes are drawn in the units of the job. If it gives the size of the block, all can be drawn in s and g:
   tools/plot_spectrum statue.h5 --units physical
@@ -126,7 +126,7 @@ def draw(path, arguments, dpi, ax=None):
     """Draws into the given axes, or without them a sheet, which is returned with the number of its spectra and the
     lines of a report: what is left out, and the counts of points that an option marks."""
     marks = [Misjudged()] * bool(arguments.practice)
-    marks += [] if arguments.friction is None else [Slipping(arguments.friction)]
+    marks += [] if arguments.friction_demand is None else [Slipping(arguments.friction_demand)]
     with open_result(path, SPECTRUM, ("region", *(mark.FIELD for mark in marks))) as file:
         expect_size(file, arguments.units)
         planes, columns, left_out = sheet_of(file, arguments, 1 if ax is not None else MOST_PANELS)
@@ -138,22 +138,23 @@ def draw(path, arguments, dpi, ax=None):
         return draw_sheet(planes, columns, left_out, marks, arguments, dpi), len(planes), report
 
 
+@takes_friction_demand
 def spectrum(result, *, motion: int | None = None, slenderness: int | None = None,
              restitution: int | None = None, index: Mapping[str, int] = {}, units: str = "job", boundary=None,
-             practice: bool = False, friction: float | None = None, labels: tuple[str, ...] = (), title: str | None = None, ax=None):
+             practice: bool = False, friction_demand: float | None = None, labels: tuple[str, ...] = (), title: str | None = None, ax=None):
     """Draws overturning spectra as maps of regions, as tools/plot_spectrum does.
 
     result: the path of a file, or a data set of overturn.open(), of which parts may be selected and values changed.
     What where() left out is hatched. motion, slenderness,
     restitution: indices, counted from 0, of one spectrum of several. index: the same for any dimensions, such as
     {"height": 0}. units: "job", or "physical" for s and g. boundary: the path of a boundary to draw on it.
-    practice: mark what published practice misjudges; needs the field peak. friction: hatch what needs a larger friction
-    coefficient; needs the field friction. labels: such as "III=S+@10,12". ax: axes
+    practice: mark what published practice misjudges; needs the field peak. friction_demand: hatch what needs a larger friction
+    coefficient; needs the field friction_demand. labels: such as "III=S+@10,12". ax: axes
     of Matplotlib for one spectrum without a legend.
 
     Returns the axes; a list of them for several spectra. Raises overturn.ToolError."""
     arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,
-                                index=index.items(), units=units, boundary=boundary, practice=practice, friction=friction,
+                                index=index.items(), units=units, boundary=boundary, practice=practice, friction_demand=friction_demand,
                                 label=[Label(words) for words in labels], title=title)
     drawn = draw(result, arguments, 150, ax)
     if ax is not None:
@@ -181,9 +182,10 @@ def read_arguments(argv):
     parser.add_argument("--practice", action="store_true",
                         help="mark and count safe points whose |theta| reaches alpha, which "
                              "published practice calls overturned; needs the field peak")
-    parser.add_argument("--friction", type=coefficient, metavar="COEFFICIENT",
+    parser.add_argument("--friction", action=Renamed, const="--friction-demand", help=argparse.SUPPRESS)
+    parser.add_argument("--friction-demand", type=coefficient, metavar="COEFFICIENT",
                         help="hatch and count the points whose verdict needs a larger friction coefficient; needs the "
-                             "field friction")
+                             "field friction_demand")
     parser.add_argument("--title", help="title of the picture (default: the job's title, or the "
                                         "names of its records)")
     return parse_with_picture(parser, argv)
