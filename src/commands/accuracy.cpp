@@ -84,7 +84,7 @@ int accuracy(const AccuracyOptions& options)
                     options.job.path, job.blocks->file);
     }
     const OutputLock output_lock(options.output);
-    expect_study_output(options.output, FileKind::accuracy, output_lock);
+    expect_study_output(job, options.output, FileKind::accuracy, output_lock);
     print_warnings(warnings_on(job));
     print_line(
         fmt::format("settling verdicts and computing about {} points in 50 digits: about {} s",

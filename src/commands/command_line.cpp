@@ -119,11 +119,12 @@ void add_history_arguments(CLI::App& command, HistoryOptions& options)
               "samples; events are added");
 }
 
-/// An option for each quantity in metres or radians that describes a block.
+/// An option for each quantity that describes a block in metres or radians, or its contact.
 void add_block(CLI::App& command, std::map<std::string, double>& block)
 {
     for (const Quantity& quantity : all_quantities()) {
-        if (quantity.role != Role::block || quantity.units == "1" || quantity.units == "s-1") {
+        const bool is_ratio = quantity.units == "1" && quantity.scope.shapes != 0;
+        if (quantity.role != Role::block || is_ratio || quantity.units == "s-1") {
             continue;
         }
         const std::string name(quantity.name);
@@ -146,7 +147,9 @@ void add_block(CLI::App& command, std::map<std::string, double>& block)
                     block[name] = value;
                 },
                 fmt::format("{} [{}]", text, quantity.units))
-            ->type_name(quantity.units == "m" ? "M" : "RAD");
+            ->type_name(quantity.units == "m"   ? "M"
+                        : quantity.units == "1" ? "NUMBER"
+                                                : "RAD");
     }
 }
 

@@ -7,6 +7,7 @@
 #include "overturn/file/history_and_accuracy_files.hpp"
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/result_writer.hpp"
+#include "overturn/text/error.hpp"
 
 #include <fmt/format.h>
 
@@ -78,8 +79,17 @@ std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const st
     return damaged;
 }
 
-void expect_study_output(const std::string& path, FileKind kind, const OutputLock& lock)
+void expect_study_output(const Job& job, const std::string& path, FileKind kind,
+                         const OutputLock& lock)
 {
+    if (job.problem.grid.find("friction") != nullptr) {
+        throw Error(
+            exit_code::job,
+            "friction is given, but this {} is that of a block that does not slip. Remove "
+            "friction; what becomes of a block that slips is computed by `overturn run` and "
+            "`overturn topple`.",
+            name_of(kind));
+    }
     const GuardedReading guarded(path, lock.path());
     expect_room_for(path, kind);
 }

@@ -79,9 +79,10 @@ void write_flags(hid_t dataset, Field field)
     }
 }
 
-void write_field_attributes(hid_t dataset, Field field, const Scene& scene,
+void write_field_attributes(hid_t dataset, Field field, const Problem& problem,
                             const std::string& coordinates)
 {
+    const Scene& scene = problem.scene;
     const FieldTraits& traits = traits_of(field);
     write_attribute(dataset, "long_name", scene.worded(traits.long_name));
     write_attribute(dataset, "units", traits.units);
@@ -91,7 +92,7 @@ void write_field_attributes(hid_t dataset, Field field, const Scene& scene,
         write_attribute(dataset, "_FillValue", std::numeric_limits<double>::quiet_NaN());
     }
     if (field == Field::flip_amplitude) {
-        const FlipSearch search = flip_search(scene);
+        const FlipSearch search = flip_search(scene, problem.grid.find("friction") != nullptr);
         write_attribute(dataset, "width", search.flip_width);
         write_attribute(dataset, "finest_step", search.finest_step);
     }
@@ -119,7 +120,7 @@ StoredField add_field(hid_t file, Field field, const Problem& problem,
     Handle dataset =
         create_dataset(file, std::string(name_of(field)), type.file,
                        stored_dimensions_of(field, stored_dimensions(problem), crossing), creation);
-    write_field_attributes(dataset, field, problem.scene, coordinates);
+    write_field_attributes(dataset, field, problem, coordinates);
     return {field, std::move(dataset), crossing};
 }
 

@@ -4,5 +4,7 @@ namespace overturn {
 
 template class SlidingMotion<double, PulseExcitation<double>>;
 template class SlidingMotion<double, RecordExcitation<double, Directions::both>>;
+template class SlidingMotion<long double, PulseExcitation<long double>>;
+template class SlidingMotion<long double, RecordExcitation<long double, Directions::both>>;
 
 } // namespace overturn

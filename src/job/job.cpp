@@ -135,12 +135,11 @@ void expect_computable(const Entry& job, const Problem& problem)
                largest_rk45_tolerance_with_error);
     }
     for (const Field field : problem.fields) {
-        if (!has_contact_forces(problem.scene.theory) &&
-            is_one_of(&Outputs::contact, traits_of(field).needs)) {
-            refuse(key("output", "fields"),
-                   " contains \"{}\", but the {} theory has no forces of the contact. Remove it, "
-                   "or use theory = \"nonlinear\".",
-                   name_of(field), name_of(problem.scene.theory));
+        if (const std::string reason = reason_not_to_compute(
+                field, problem.scene, problem.grid.find("friction") != nullptr);
+            !reason.empty()) {
+            refuse(key("output", "fields"), " contains \"{}\", but {}. Remove it, or change that.",
+                   name_of(field), reason);
         }
     }
     const std::string reason = problem.product.audit() ? reason_not_to_fill(problem) : "";

@@ -2,6 +2,7 @@
 
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/pulse_motion.hpp"
+#include "overturn/mechanics/sliding.hpp"
 #include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
@@ -49,16 +50,17 @@ double free_fall_amplitude(const Scene& scene, const Point& point)
                            : records[std::size_t(point.record)]->free_fall_scale();
 }
 
-double lifting_pga(const Scene& scene, const Point& point)
+namespace {
+
+/// The largest peak ground acceleration over g at which the motion of this point exceeds neither
+/// threshold. thresholds: of the ground acceleration over g that pushes to a side, for the block as
+/// it stands.
+double pga_at(UpliftThresholds thresholds, const Scene& scene, const Point& point)
 {
-    const Pulse* pulse = scene.pulse();
-    if (pulse != nullptr && point.block.is_symmetric()) {
-        return uplift_threshold(scene.theory, point.block.slenderness);
+    if (std::signbit(point.amplitude)) { // the mirrored motion
+        std::swap(thresholds.plus, thresholds.minus);
     }
-    const bool is_mirrored = std::signbit(point.amplitude);
-    const Block<double> block = is_mirrored ? point.block.turned() : point.block;
-    const UpliftThresholds thresholds{uplift_threshold(scene.theory, block.slenderness),
-                                      uplift_threshold(scene.theory, block.other.slenderness)};
+    const Pulse* pulse = scene.pulse();
     if (pulse == nullptr) {
         const Record record = directed_record(scene, point);
         return record->peak() * record->lifting_scale(thresholds);
@@ -71,6 +73,30 @@ double lifting_pga(const Scene& scene, const Point& point)
     };
     return std::min(lifting(thresholds.minus, lobes.positive),
                     lifting(thresholds.plus, lobes.negative));
+}
+
+} // namespace
+
+double lifting_pga(const Scene& scene, const Point& point)
+{
+    const auto threshold = [&](const BlockSide<double>& side, const SlidingSide<double>& on) {
+        return on.friction > on.friction_to_lift()
+                   ? uplift_threshold(scene.theory, side.slenderness)
+                   : std::numeric_limits<double>::infinity();
+    };
+    const Block<double>& block = point.block;
+    const auto plus = sliding_side(block, point.gyration, point.friction);
+    if (scene.pulse() != nullptr && block.is_symmetric()) {
+        return threshold(block, plus);
+    }
+    return pga_at({threshold(block, plus), threshold(block.other, plus.turned())}, scene, point);
+}
+
+double moving_pga(const Scene& scene, const Point& point)
+{
+    const auto plus = sliding_side(point.block, point.gyration, point.friction);
+    return pga_at({plus.acceleration_to_move(), plus.turned().acceleration_to_move()}, scene,
+                  point);
 }
 
 namespace {
@@ -265,6 +291,9 @@ std::vector<Point> Coordinates::points() const
     for (const PointNumber& number :
          has_two_sides ? Numbers(of_two_sided_point) : Numbers(of_symmetric_point)) {
         fill(number.coordinate, [&](Point& point, double value) { number.of(point) = value; });
+    }
+    if (grid_.find("friction") != nullptr) {
+        fill("friction", [](Point& point, double value) { point.friction = value; });
     }
     fill("restitution", [](Point& point, double r) { point.block.restitution = r; });
     fill(motion.amplitude, [](Point& point, double value) { point.amplitude = value; });

@@ -50,8 +50,10 @@ double peak(const EndOfPoint& end)
         return is_unsafe(outcome.region) ? infinity : unknown;
     }
     return with_theory(end.scene().theory, [&]<Theory theory>() {
-        return std::max(outcome.peak / end.point.block.slenderness,
-                        largest_free_tilt<theory>(outcome.end(), end.block()));
+        const double so_far = outcome.peak / end.point.block.slenderness;
+        return outcome.has(status::slipped)
+                   ? so_far // of the whole motion
+                   : std::max(so_far, largest_free_tilt<theory>(outcome.end(), end.block()));
     });
 }
 
@@ -62,6 +64,10 @@ double fall_time(const EndOfPoint& end)
     if (!is_unsafe(outcome.region)) {
         return is_safe(outcome.region) ? infinity : unknown;
     }
+    if (outcome.has(status::slipped)) {
+        return ((outcome.phase - outcome.uplift) / end.point.frequency + outcome.fall_after) *
+               end.point.block.frequency_parameter;
+    }
     return with_theory(end.scene().theory, [&]<Theory theory>() {
         const double forced = (outcome.phase - end.first_uplift()) / end.point.frequency;
         const double time =
@@ -70,6 +76,13 @@ double fall_time(const EndOfPoint& end)
                 : forced + time_to_lie_flat<theory, double>(outcome.end(), end.block());
         return time * end.point.block.frequency_parameter;
     });
+}
+
+/// A displacement of the base over R of the side plus.
+template <auto member>
+double slide(const EndOfPoint& end)
+{
+    return end.outcome.*member / end.point.block.size;
 }
 
 /// A number of the outcome as it is.
@@ -91,7 +104,7 @@ std::uint16_t impacts(const EndOfPoint& end)
 
 std::uint8_t status_bits(const EndOfPoint& end)
 {
-    return end.outcome.flags & outcome_flag::of_status;
+    return std::uint8_t(end.outcome.flags & outcome_flag::of_status);
 }
 
 /// As a function for all points.
@@ -141,6 +154,11 @@ const FieldTraits fields[] = {
      {&Outputs::contact}, each<value_of<&Outcome::friction_demand>>},
     {"normal", float64, "smallest normal force over that at rest", "1",
      "over the same times as friction_demand", {&Outputs::contact}, each<value_of<&Outcome::normal>>},
+    {"slide", float64, "final slide of the base over R", "1",
+     "positive towards the side plus, over R of the side plus, when the block is at rest, or has "
+     "fallen; 0 if it does not slip", {&Outputs::slide}, each<slide<&Outcome::slide>>},
+    {"slide_peak", float64, "largest |slide| of the base over R", "1", "see slide",
+     {&Outputs::slide}, each<slide<&Outcome::slide_peak>>},
     {"impacts", uint16, "impacts during the ground motion", "1", "", {&Outputs::impacts}, each<impacts>,
      {{impact_count::largest, "this_many_or_more"}, {impact_count::not_computed, "not_computed"},
       {impact_count::bounce_series, "bounce_series"}}, FieldOf::filled_point},
@@ -150,7 +168,8 @@ const FieldTraits fields[] = {
      "0: no flag is set; 255: not computed yet", {}, each<status_bits>,
      {{status::came_to_rest, "came_to_rest"}, {status::cap_was_hit, "cap_was_hit"},
       {status::not_finite, "not_finite"}, {status::unresolved, "unresolved"},
-      {status::free_fall, "free_fall"}, {status::lifts_off, "lifts_off"}}, FieldOf::point, true},
+      {status::free_fall, "free_fall"}, {status::lifts_off, "lifts_off"}, {status::slipped, "slipped"},
+      {status::jammed, "jammed"}}, FieldOf::point, true},
     {"flip_amplitude", float64, "strength at which the verdict flips", "1",
      "the amplitude of a pulse or the scale of a record, in ascending order; NaN beyond the last "
      "flip. Each flip lies between two amplitudes with settled verdicts, at most `width` apart "

@@ -2,6 +2,7 @@
 
 #include "check_lengths.hpp"
 
+#include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/problem/coordinates.hpp"
 
 #include <fmt/format.h>
@@ -208,6 +209,17 @@ void expect_limits(const Coordinates& coordinates, const Grid& corners)
          quantity("restitution").interval,
          {"restitution_of_maximum"},
          quantity("restitution").reason},
+        {"restitution_over_largest",
+         {"(0, 1]", [](double share) { return share <= 1 + 1e-12; }},
+         {"restitution_of_maximum", "restitution"},
+         "With friction, the restitution is at most r_max, that of an impact on a corner that does "
+         "not slip. Give at most r_max, or remove friction.",
+         corners.find("friction") != nullptr},
+        {"friction_over_incline",
+         {"(1, inf]", [](double ratio) { return ratio > 1; }},
+         {"friction", "incline"},
+         "The block would slide down at rest: the friction coefficient must be larger than the "
+         "tangent of the incline. Lower the incline, or give a larger friction."},
         {"scale", quantity("scale").interval, {"pga"}, overflow},
         {"vertical_pga", quantity("pga").interval, {"pga", "scale"}, overflow}};
     for (const Limit& limit : limits) {
@@ -297,6 +309,12 @@ void expect_valid(const Scene& scene, const Grid& grid)
     expect_limits(coordinates, corners);
     expect_metres(scene, coordinates, corners);
     expect_gravity(scene, corners);
+    if (grid.find("friction") != nullptr && !has_contact_forces(scene.theory)) {
+        refuse("friction",
+               fmt::format(" is not possible: the {} theory has no forces of the contact. "
+                           "Remove it, or use theory = \"nonlinear\".",
+                           name_of(scene.theory)));
+    }
 }
 
 } // namespace

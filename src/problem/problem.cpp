@@ -1,6 +1,8 @@
 #include "overturn/problem/problem.hpp"
 
+#include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/problem/coordinates.hpp"
+#include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
 
 #include <fmt/format.h>
@@ -135,8 +137,23 @@ Items items_of(const Problem& problem)
     return std::visit([&](const auto& product) { return product.items(problem); }, problem.product);
 }
 
+std::string reason_not_to_compute(Field field, const Scene& scene, bool has_friction)
+{
+    const auto& needs = traits_of(field).needs;
+    if (!has_contact_forces(scene.theory) && is_one_of(&Outputs::contact, needs)) {
+        return fmt::format("the {} theory has no forces of the contact", name_of(scene.theory));
+    }
+    if (!has_friction && is_one_of(&Outputs::slide, needs)) {
+        return "without the key friction, no block slips";
+    }
+    return "";
+}
+
 std::string reason_not_to_fill(const Problem& problem)
 {
+    if (problem.grid.find("friction") != nullptr) {
+        return "where blocks slip, regions have other boundaries";
+    }
     if (problem.scene.motion_traits().is_sensitive) {
         return "under a record regions have no simple boundaries";
     }

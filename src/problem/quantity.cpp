@@ -17,6 +17,7 @@ namespace {
 constexpr Interval finite{"(-inf, inf)", [](double x) { return std::isfinite(x); }};
 constexpr Interval positive{"(0, inf)", [](double x) { return x > 0 && std::isfinite(x); }};
 constexpr Interval not_negative{"[0, inf)", [](double x) { return x >= 0 && std::isfinite(x); }};
+constexpr Interval frictions{"(0, 10]", [](double x) { return x > 0 && x <= 10; }};
 constexpr Interval directions{"[0, 360)", [](double x) { return x >= 0 && x < 360; }};
 constexpr Interval inclines{"(-pi/2, pi/2)",
                             [](double x) { return std::abs(x) < pi<double>() / 2; }};
@@ -179,6 +180,9 @@ constexpr Quantity quantities[] = {
      {.is_stored = true},
      {{{"moment_kept", "radius_of_gyration", "size_plus", "size_minus"},
        largest_restitution_of_sides, two}}},
+    {"friction", "1", Role::block, "friction coefficient of block and base", frictions,
+     "It is the coefficient of friction between block and base, the tangent of the friction angle.",
+     {.standard = "none: the block does not slip"}},
     {"restitution", "1", Role::loss, "energy ratio at an impact, r", energy_ratios,
      "A block cannot gain energy at an impact, nor lose all of it.", {.is_stored = true},
      {{{"restitution_of_maximum", "slenderness"},
@@ -267,6 +271,13 @@ constexpr Intermediate intermediates[] = {
      {{{"half_width", "center_offset"}, [](auto&, auto& of) { return of[0] + of[1]; }, two}}},
     {"moment_kept", {{{"radius_of_gyration", "size_plus", "size_minus", "slenderness_plus",
                        "slenderness_minus"}, moment_kept, two}}},
+    {"restitution_over_largest",
+     {{{"restitution", "slenderness"},
+       [](auto&, auto& of) { return of[0] / largest_restitution(of[1]); }, equal},
+      {{"restitution", "largest_restitution"}, ratio, two}}},
+    {"friction_over_incline",
+     {{{"friction", "incline"},
+       [](auto&, auto& of) { return of[0] / std::abs(std::tan(of[1])); }, two}}},
     {"gyration_over_size", {{{"radius_of_gyration", "size_plus"}, ratio, two}}},
     {"center_over_half_height", {{{"center_height", "half_height"}, ratio, two}}}};
 // clang-format on

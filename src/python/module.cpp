@@ -167,7 +167,7 @@ Grid grid_of_columns(const Scene& scene, const Columns& columns)
 
 /// The fields of these names, which must be possible for the scene and the numerics.
 std::vector<Field> fields_named(const std::vector<std::string>& names, const Scene& scene,
-                                const Numerics& numerics)
+                                const Numerics& numerics, bool has_friction)
 {
     const std::vector<Field> known = spectrum_fields();
     return mapped(names, [&](const std::string& name) {
@@ -177,11 +177,10 @@ std::vector<Field> fields_named(const std::vector<std::string>& names, const Sce
                 fmt::format("fields contains \"{}\", which is not one of {}.", name,
                             fmt::join(mapped(known, &Field::name), ", ")));
         }
-        if (!has_contact_forces(scene.theory) &&
-            is_one_of(&Outputs::contact, traits_of(*found).needs)) {
-            throw std::invalid_argument(fmt::format(
-                "fields contains \"{}\", but the {} theory has no forces of the contact.", name,
-                name_of(scene.theory)));
+        if (const std::string reason = reason_not_to_compute(*found, scene, has_friction);
+            !reason.empty()) {
+            throw std::invalid_argument(
+                fmt::format("fields contains \"{}\", but {}.", name, reason));
         }
         if (*found == Field::error && !knows_errors(numerics)) {
             throw std::invalid_argument(fmt::format(
@@ -200,7 +199,8 @@ py::dict evaluate(const Scene& scene, const Numerics& numerics, const Columns& c
                   const std::vector<std::string>& names)
 {
     const py::ssize_t size = columns.empty() ? 0 : columns.begin()->second.size();
-    const std::vector<Field> fields = fields_named(names, scene, numerics);
+    const std::vector<Field> fields =
+        fields_named(names, scene, numerics, columns.contains("friction"));
     std::vector<py::array> arrays = mapped(fields, [&](Field field) {
         return std::visit(
             [&](auto value) -> py::array { return py::array_t<decltype(value)>(size); },

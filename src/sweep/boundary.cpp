@@ -133,8 +133,12 @@ public:
         left_in_50_digits_ -= outcomes.in_50_digits;
         std::vector<Probe> probes;
         for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-            probes.push_back(
-                {amplitudes[i], outcomes[i].region, outcomes[i].margin, outcomes[i].impacts});
+            // Without a margin, as of a block that still slips, flips are bisected.
+            const auto& outcome = outcomes[i];
+            const double signed_one = is_safe(outcome.region) ? 1 : -1;
+            probes.push_back({amplitudes[i], outcome.region,
+                              std::isnan(outcome.margin) ? signed_one : outcome.margin,
+                              outcome.impacts});
             if (!is_decided(probes.back().region)) {
                 undecided.push_back(probes.back());
             }
@@ -152,11 +156,16 @@ public:
         return lifting_pga(scene_, point) / pga_of_unit(scene_, point) * std::abs(line_.unit);
     }
 
+    bool may_slip() const { return std::isfinite(line_.point.friction); }
+
     /// Whether there is a safe strip, however narrow, between two amplitudes at which the block
     /// overturns to different sides: a block that just does not overturn on one side must not
     /// overturn on the other after the next impact, which reduces its energy by r.
     bool has_safe_strips() const
     {
+        if (may_slip()) {
+            return false;
+        }
         const Block<double>& block = line_.point.block;
         const double ratio = with_theory(scene_.theory, [&]<Theory theory>() {
             return barrier_ratio<theory>(Equations<theory>::separatrix_rate(block, 0.0), block);
@@ -232,6 +241,30 @@ std::array<Probe, 2> narrowed(Line& line, const Probe& below, const Probe& above
     while (settled &&
            !line.is_narrow(low.amplitude, high.amplitude)) { // if a margin of 0 ended it early
         margin(middle_of(low, high));
+    }
+    if (!settled && line.may_slip()) { // the ends of the range whose verdicts cannot be settled
+        double first = line.undecided.back().amplitude;
+        double last = first;
+        const auto close = [&](Probe& settled_end, double& end) {
+            constexpr double enough = 1e-9; // of the amplitude
+            while (std::abs(end - settled_end.amplitude) > enough * high.amplitude) {
+                const Probe probe = line.at((end + settled_end.amplitude) / 2);
+                if (!is_decided(probe.region)) {
+                    end = probe.amplitude;
+                } else if (is_safe(probe.region) == is_safe(settled_end.region)) {
+                    settled_end = probe;
+                } else {
+                    return; // another flip
+                }
+            }
+        };
+        close(low, first);
+        close(high, last);
+        if (line.is_narrow(low.amplitude, high.amplitude)) {
+            std::erase_if(line.undecided, [&](const Probe& probe) {
+                return low.amplitude < probe.amplitude && probe.amplitude < high.amplitude;
+            });
+        }
     }
     return {low, high};
 }
@@ -418,7 +451,8 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
                      const std::vector<double>& amplitudes, Kernel kernel,
                      const std::optional<FlipSearch>& search)
 {
-    Line line(scene, where, kernel, search.value_or(flip_search(scene)));
+    Line line(scene, where, kernel,
+              search.value_or(flip_search(scene, std::isfinite(where.point.friction))));
     const std::size_t most_flips = line.search.most_flips;
     std::vector<Probe> probes;
     const bool is_sensitive = scene.motion_traits().is_sensitive;

@@ -78,7 +78,7 @@ TileFields fields_of(const Boundaries&, const Problem& problem, const Tile& tile
     const Column& strengths = grid.dimensions[along].columns.front();
     const bool is_pga = strengths.quantity->name == "pga";
     const double unit = pga_of_unit(scene, point);
-    FlipSearch search = flip_search(scene);
+    FlipSearch search = flip_search(scene, std::isfinite(point.friction));
     search.most_flips = std::size_t(tile.points());
     search.drop_requested = drop_requested;
     const double of_direction = std::signbit(point.amplitude) ? -1 : 1; // mirrored

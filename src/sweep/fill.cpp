@@ -43,7 +43,7 @@ constexpr std::size_t switches_of_safety = std::size_t(Switch::rebound) + 1;
 /// An integrated point, as far as the test of a cell needs it.
 struct Node {
     Region region;
-    std::uint8_t flags;  ///< see outcome_flag
+    std::uint16_t flags; ///< see outcome_flag
     std::uint32_t lobes; ///< bit set of those that lift a block at rest
     int side;            ///< +1 or -1, at the end; 0 if the sides of the block are equal
     double impacts;      ///< counted

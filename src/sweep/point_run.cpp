@@ -69,6 +69,16 @@ constexpr Outcome free_fall = [] {
     return outcome;
 }();
 
+/// The outcome of a block that is not lifted, but slides.
+constexpr Outcome at_rest = [] {
+    Outcome outcome{};
+    outcome.side = 1;
+    outcome.region = Region::S;
+    outcome.margin = 1;
+    outcome.to_stick = infinity;
+    return outcome;
+}();
+
 } // namespace
 
 ScaledPulses::ScaledPulses(const PulseMotion<double>& motion, Theory theory,
@@ -138,14 +148,107 @@ auto PointRun::with_excitation(int point, const Visitor& visit) const
         return visit(
             PulseExcitation<double>{pulse_, pulse.acceleration, at.frequency, pulse.uplifts});
     } else {
+        using Exact = std::conditional_t<std::same_as<T, Digits31>, Digits50, T>;
         const Pulse& pulse = *scene_.pulse();
-        const auto exact = pulse_excitation<theory>(pulse_motion<Digits50>(pulse.kind, pulse.shape),
-                                                    block_in<Digits50>(at.block),
-                                                    Digits50(at.amplitude), Digits50(at.frequency));
+        const auto exact = pulse_excitation<theory>(pulse_motion<Exact>(pulse.kind, pulse.shape),
+                                                    block_in<Exact>(at.block), Exact(at.amplitude),
+                                                    Exact(at.frequency));
         if constexpr (std::same_as<T, Digits31>) {
             return visit(in_31_digits(exact));
         } else {
             return visit(exact);
+        }
+    }
+}
+
+bool PointRun::has_friction() const
+{
+    return !points_.empty() && std::isfinite(points_.front().friction);
+}
+
+bool PointRun::stays_flat(int point) const
+{
+    const Point& at = this->point(point);
+    const auto side = sliding_side(at.block, at.gyration, at.friction);
+    return at.friction <= std::min(side.friction_to_lift(), side.turned().friction_to_lift());
+}
+
+template <class T>
+SlidingEnd<T> PointRun::slide(int point, double tolerance, Follow follow) const
+{
+    const Point& at = this->point(point);
+    return with_excitation<T, Theory::nonlinear>(point, [&](const auto& excitation) {
+        return run_sliding<T>(block_in<T>(at.block), T(at.gyration), T(at.friction), excitation,
+                              T(tolerance), follow);
+    });
+}
+
+namespace {
+
+/// What a slipping block adds to an outcome.
+Outcome outcome_of(const SlidingEnd<double>& end, const Block<double>& given, Outcome outcome)
+{
+    const bool is_decided = end.region != Region::undecided;
+    const Block<double> block = seen_from(end.state.side, given);
+    const auto flag = [](bool holds, std::uint16_t bit) { return holds ? bit : 0; };
+    outcome.tilt = is_decided ? end.state.tilt : unknown;
+    outcome.rate = is_decided ? end.state.rate : unknown;
+    outcome.side = end.state.side;
+    outcome.flags =
+        std::uint16_t(flag(end.fell, outcome_flag::fell) | flag(end.slipped, status::slipped) |
+                      flag(end.jammed, status::jammed) | flag(end.lifted_off, status::lifts_off) |
+                      flag(end.capped, status::cap_was_hit));
+    outcome.region = end.region;
+    outcome.margin = !is_decided || end.slips_after ? unknown
+                     : end.fell ? margin_of_fall<Theory::nonlinear>(end.state.rate, block)
+                                : margin_after_pulse<Theory::nonlinear>(end.state, block);
+    outcome.error = is_decided ? unknown : infinity;
+    outcome.impacts = end.impacts;
+    outcome.steps = end.steps;
+    outcome.phase = end.phase;
+    outcome.peak = is_decided ? end.peak : unknown;
+    outcome.slide = is_decided ? end.slide : unknown;
+    outcome.slide_peak = is_decided ? end.slide_peak : unknown;
+    outcome.uplift = end.uplift;
+    outcome.fall_after = end.time_of_fall;
+    return outcome;
+}
+
+} // namespace
+
+void PointRun::let_slip(const Numerics& numerics, const Outputs& outputs, Outcomes& outcomes) const
+{
+    const double tolerance = numerics.resolve
+                                 ? tolerances_to_confirm[0]
+                                 : std::min(numerics.tolerance, loosest_sliding_tolerance);
+    const Follow follow =
+        outputs.peak || outputs.phase || outputs.slide ? Follow::until_rest : Follow::until_decided;
+    for (int i = 0; i < size(); ++i) {
+        Outcome& outcome = outcomes[i];
+        const Point& at = point(i);
+        outcome.slide = outcome.slide_peak = outcome.has(status::free_fall) ? unknown : 0;
+        if (outcome.has(status::free_fall) || outcome.to_stick <= at.friction) {
+            continue;
+        }
+        throw_if_dropped();
+        const auto end = slide<double>(i, tolerance, follow);
+        outcome = outcome_of(end, at.block, outcome);
+        if (!numerics.resolve && !outputs.error) {
+            continue;
+        }
+        // The error is the difference from a run with a much smaller tolerance.
+        const auto better = slide<double>(i, tolerances_to_confirm[1], follow);
+        bool agree = better.region == end.region;
+        if (outputs.error && std::isfinite(outcome.margin)) {
+            const double margin = outcome_of(better, at.block, outcome).margin;
+            outcome.error = agree ? 2 * std::abs(margin - outcome.margin) + 0x1p-50 : infinity;
+        }
+        if (numerics.resolve) {
+            agree = agree &&
+                    slide<long double>(i, tolerances_to_confirm[2], follow).region == end.region;
+            if (!agree) {
+                give_up(outcome);
+            }
         }
     }
 }
@@ -239,7 +342,7 @@ void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
         const double rounding = end.is_stopped() ? 0 : std::abs(margin) * 0x1p-53;
         const double error = double(end.error) + rounding;
         const bool in_doubt = end.is_stopped() || !(error < std::abs(margin));
-        const auto flag = [](bool holds, std::uint8_t bit) { return holds ? bit : 0; };
+        const auto flag = [](bool holds, std::uint16_t bit) { return holds ? bit : 0; };
         const int flags =
             flag(end.fell, outcome_flag::fell) | flag(end.rested, status::came_to_rest) |
             flag(end.capped, status::cap_was_hit) | flag(end.not_finite, status::not_finite) |
@@ -248,7 +351,7 @@ void PointRun::run_in_more_digits(int point, Outcomes& outcomes) const
         outcome.tilt = double(end.state.tilt);
         outcome.rate = double(end.state.rate);
         outcome.side = double(end.state.side);
-        outcome.flags = std::uint8_t(flags);
+        outcome.flags = std::uint16_t(flags);
         outcome.region = region_of<theory>(end, block);
         outcome.margin = margin;
         outcome.error = error;
@@ -336,6 +439,7 @@ void judge_contact(Outcome& outcome, bool is_known)
 {
     outcome.friction_demand = is_known ? outcome.friction_demand : unknown;
     outcome.normal = is_known ? outcome.normal : unknown;
+    outcome.to_stick = is_known ? outcome.to_stick : unknown;
     if (outcome.normal <= 0) {
         outcome.flags |= status::lifts_off;
     }
@@ -357,6 +461,7 @@ void PointRun::add_contact(Outcomes& outcomes) const
     for (int i = 0; i < size(); ++i) {
         outcomes[i].friction_demand = watched[i].friction_demand;
         outcomes[i].normal = watched[i].normal;
+        outcomes[i].to_stick = watched[i].to_stick;
         // The motion may be so sensitive that this run has another end than the one of the verdict.
         judge_contact(outcomes[i], watched[i].region == outcomes[i].region &&
                                        watched[i].region != Region::undecided);
@@ -370,19 +475,27 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
     computed.error = outputs.error || numerics.resolve;
     computed.margin = outputs.margin || numerics.resolve;
     computed.steps = outputs.steps || numerics.resolve; // see is_short()
-    computed.region = outputs.region || outputs.contact;
+    const bool wants_contact = outputs.contact || points.has_friction();
+    computed.region = outputs.region || wants_contact;
     // More digits may give another verdict, and do not see the contact.
-    computed.contact = outputs.contact && !numerics.resolve;
+    computed.contact = wants_contact && !numerics.resolve;
     // An integration that is accurate enough for a verdict may be inaccurate for a peak, whose
     // error has no bound. Filling, which alone asks for grazes, only compares the peaks of nodes.
     const bool stores_peaks = outputs.peak && !outputs.grazes;
     computed.peak = outputs.peak && (stores_peaks || !numerics.resolve);
     Outcomes outcomes(points.size(), computed);
-    points.run(numerics.resolve && stores_peaks ? most_accurate : numerics, outcomes, points.all(),
+    std::vector<int> chosen = points.all();
+    if (points.has_friction() && !outputs.contact) {
+        std::erase_if(chosen, [&](int point) {
+            outcomes[point] = at_rest;
+            return points.stays_flat(point);
+        });
+    }
+    points.run(numerics.resolve && stores_peaks ? most_accurate : numerics, outcomes, chosen,
                numerics.resolve ? UncertainImpact::stop : UncertainImpact::go_on);
     if (numerics.resolve) {
         resolve(points, most_in_50_digits, outcomes);
-        if (outputs.contact) {
+        if (wants_contact) {
             points.add_contact(outcomes);
         }
         if (outputs.grazes) { // of nodes of one accuracy
@@ -395,10 +508,13 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
                 outcomes[i].last_impact = of_nodes[i].last_impact;
             }
         }
-    } else if (outputs.contact) {
+    } else if (wants_contact) {
         for (int i = 0; i < points.size(); ++i) {
             judge_contact(outcomes[i], outcomes[i].region != Region::undecided);
         }
+    }
+    if (points.has_friction()) {
+        points.let_slip(numerics, outputs, outcomes);
     }
     return outcomes;
 }

@@ -3,6 +3,7 @@
 
 #include "sweep_kernel.hpp"
 
+#include "overturn/integrate/sliding_motion.hpp"
 #include "overturn/mechanics/contact.hpp"
 #include "overturn/mechanics/region.hpp"
 #include "overturn/problem/coordinates.hpp"
@@ -83,6 +84,16 @@ public:
     /// double.
     void run_in_31_digits(Outcomes& outcomes, const std::vector<int>& chosen) const;
 
+    /// Whether blocks have a friction coefficient, and may slip.
+    bool has_friction() const;
+
+    /// Whether the block of a point slides before it could lift, so that it never rocks.
+    bool stays_flat(int point) const;
+
+    /// Replaces the outcomes of the blocks that slip; those of the others, with the friction that
+    /// they need to stick, are known.
+    void let_slip(const Numerics& numerics, const Outputs& outputs, Outcomes& outcomes) const;
+
     /// Integrates one point in more digits, T: Digits31, only under a pulse, or Digits50.
     /// Region, margin and error are computed before the end is rounded to double.
     template <class T>
@@ -102,6 +113,9 @@ public:
 private:
     void throw_if_dropped() const;
 
+    template <class T>
+    SlidingEnd<T> slide(int point, double tolerance, Follow follow) const;
+
     void run_by(Integrator integrator, double tolerance, Outcomes& outcomes,
                 const std::vector<int>& chosen, UncertainImpact uncertain_impact) const;
 
@@ -119,6 +133,13 @@ private:
     std::vector<Record> records_; // of the points; empty under a pulse
     bool are_symmetric_;
 };
+
+/// The verdict cannot be settled.
+inline void give_up(Outcome& outcome)
+{
+    outcome.flags |= status::unresolved;
+    outcome.region = Region::undecided;
+}
 
 /// Integrates again, with more and more digits, the points whose verdict is in doubt; those that
 /// remain in doubt get status::unresolved. most_in_50_digits: the largest number of points

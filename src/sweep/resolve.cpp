@@ -10,12 +10,6 @@ namespace overturn {
 
 namespace {
 
-void give_up(Outcome& outcome)
-{
-    outcome.flags |= status::unresolved;
-    outcome.region = Region::undecided;
-}
-
 /// The bounds of errors are of first order: at a loose tolerance, the error of one point in a
 /// million exceeds its bound, by a factor of up to 13 among 10^8 random points.
 constexpr double safety_of_first_pass = 16;

@@ -24,7 +24,7 @@ constexpr bool has_31_digits = !std::same_as<S, double>;
 constexpr int lanes = lanes_v<T>;
 
 /// The flag in the lanes of the mask, 0 elsewhere.
-T flagged(const mask_t<T>& mask, std::uint8_t flag)
+T flagged(const mask_t<T>& mask, std::uint16_t flag)
 {
     return select<T>(mask, T(double(flag)), T(0.0));
 }
@@ -79,9 +79,10 @@ template <Theory theory, Outputs outputs>
     }
     if constexpr (outputs.contact) {
         if (wanted.contact) {
-            const auto demand = stage.contact_demand();
-            put(demand.friction, &Outcome::friction_demand);
-            put(demand.normal, &Outcome::normal);
+            const auto needs = stage.contact_needs();
+            put(needs.demand.friction, &Outcome::friction_demand);
+            put(needs.demand.normal, &Outcome::normal);
+            put(needs.to_stick, &Outcome::to_stick);
         }
     }
     if (wanted.region) {

@@ -1,5 +1,6 @@
 #include "overturn/sweep/toppling.hpp"
 
+#include "overturn/mechanics/sliding.hpp"
 #include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/sweep/compute_tile.hpp"
@@ -22,7 +23,8 @@ std::vector<double> friction_to_topple(const Problem& of_one_point, const Verdic
 {
     const Scene& scene = of_one_point.scene;
     const auto toppling = ranges.with(Verdict::topples);
-    if (toppling.empty() || !has_contact_forces(scene.theory)) {
+    if (toppling.empty() || !has_contact_forces(scene.theory) ||
+        of_one_point.grid.find("friction") != nullptr) {
         return {};
     }
     // At the end itself, whether the block topples, and with it the friction, may be unknown.
@@ -169,6 +171,40 @@ std::vector<double> directions_of(const Problem& problem)
                                                        : std::vector<double>{0, 180};
 }
 
+namespace {
+
+Verdict verdict_of_peak(double peak)
+{
+    return std::isnan(peak)   ? Verdict::undecided
+           : std::isinf(peak) ? Verdict::topples
+                              : Verdict::safe;
+}
+
+std::optional<SlipAnswer> slip_of(const Problem& problem, const Point& point,
+                                  const ToppleQuestion& question)
+{
+    if (!std::isfinite(point.friction)) {
+        return std::nullopt;
+    }
+    const auto side = sliding_side(point.block, point.gyration, point.friction);
+    SlipAnswer slip{.friction = point.friction,
+                    .stays_flat = point.friction <= std::min(side.friction_to_lift(),
+                                                             side.turned().friction_to_lift()),
+                    .moving_pga = moving_pga(problem.scene, point),
+                    .without = {}};
+    if (question.has_strength) {
+        slip.slide = accurate_values(problem, Field::slide).front();
+        slip.slide_peak = accurate_values(problem, Field::slide_peak).front();
+        Problem without = problem;
+        std::erase_if(without.grid.numbers,
+                      [](const Column& number) { return number.quantity->name == "friction"; });
+        slip.without = verdict_of_peak(accurate_values(without, Field::peak).front());
+    }
+    return slip;
+}
+
+} // namespace
+
 ToppleAnswer answer_of(const Problem& problem, const ToppleQuestion& question)
 {
     ToppleAnswer answer;
@@ -179,13 +215,12 @@ ToppleAnswer answer_of(const Problem& problem, const ToppleQuestion& question)
     answer.pga = question.pga.value_or(std::abs(point.amplitude) * answer.unit);
     if (question.has_strength) {
         answer.peak = accurate_values(problem, Field::peak).front();
-        answer.verdict = std::isnan(answer.peak)   ? Verdict::undecided
-                         : std::isinf(answer.peak) ? Verdict::topples
-                                                   : Verdict::safe;
+        answer.verdict = verdict_of_peak(answer.peak);
         if (has_contact_forces(scene.theory)) {
             answer.friction_demand = accurate_values(problem, Field::friction_demand).front();
         }
     }
+    answer.slip = slip_of(problem, point, question);
     answer.lifting_pga = lifting_pga(scene, point);
     answer.by_restitution = answers_by_restitution(problem, point, answer, question);
     answer.friction_to_topple = friction_to_topple(problem, answer.requested().ranges, answer.unit);

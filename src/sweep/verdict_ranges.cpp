@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t most_amplitudes = 2500;
 constexpr int most_in_50_digits = 4;
 
-FlipSearch search_in(const Scene& scene, const DropRequested& drop_requested)
+FlipSearch search_in(const Scene& scene, bool may_slip, const DropRequested& drop_requested)
 {
-    FlipSearch search = flip_search(scene);
+    FlipSearch search = flip_search(scene, may_slip);
     search.drop_requested = drop_requested;
     if (scene.motion_traits().is_sensitive) {
         // Above every step of the scan, which is therefore not divided.
@@ -98,7 +98,8 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
     const std::vector<double> accelerations =
         with_neighbours(scanned_accelerations(scene, lifting, end), included, scene);
     const Boundary boundary =
-        boundary_on(scene, line, accelerations, widest_kernel(), search_in(scene, drop_requested));
+        boundary_on(scene, line, accelerations, widest_kernel(),
+                    search_in(scene, std::isfinite(line.point.friction), drop_requested));
     ranges.coarse = boundary.coarse;
     ranges.all.push_back({0, lifting, Verdict::safe});
     const auto end_last_range_at = [&](double last) {

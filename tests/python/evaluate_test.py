@@ -96,7 +96,7 @@ class TheBitsOfAPlane(WithTheSameBits):
 
 
 class EveryField(WithTheSameBits):
-    PLANE = {"slenderness": 0.2, "restitution": 0.8}
+    PLANE = {"slenderness": 0.2, "restitution": 0.8, "friction": 0.35}
 
     def test_has_the_bits_of_a_plane(self):
         fields = [*core.fields]
@@ -113,10 +113,10 @@ class EveryField(WithTheSameBits):
         motion = {"amplitude": 2, "frequency": 1}
         for arguments, text in (({"fields": ["peaks"]}, 'fields contains "peaks", which is not one of region, angle'),
                                 ({"fields": "peak"}, "fields = 'peak' is a word"),
-                                ({"fields": ["normal"], "theory": "linear"}, "linear theory has no forces"),
-                                ({"fields": ["error"], "method": "rk45", "tolerance": 1e-3}, "is too loose")):
+                                ({"fields": ["normal"], "theory": "linear", "friction": 1}, "linear theory has no forces"),
+                                                                ({"fields": ["error"], "method": "rk45", "tolerance": 1e-3}, "is too loose")):
             with self.assertRaisesRegex(ValueError, text):
-                overturn.evaluate(**self.PLANE, **motion, **arguments)
+                overturn.evaluate(**{**self.PLANE, **motion, **arguments})
 
 
 class TheBitsUnderARecord(WithTheSameBits):

@@ -17,7 +17,7 @@ namespace {
 struct Found {
     Region region;
     double margin, error;
-    std::uint8_t flags;
+    std::uint16_t flags;
 };
 
 Found compute(const Numerics& numerics, const PulsePoint<double>& point)
@@ -143,7 +143,7 @@ TEST(ResolvedVerdicts, AreThoseOfLimitedNumbersOfPointsUnderARecordIn50Digits)
         const Outcomes outcomes = outcomes_of(run, resolved_taylor, {.region = true}, most);
         EXPECT_EQ(outcomes.in_50_digits, most);
         for (int i = 0; i < run.size(); ++i) {
-            const std::uint8_t flags = i < most ? 0 : status::unresolved | outcome_flag::in_doubt;
+            const std::uint16_t flags = i < most ? 0 : status::unresolved | outcome_flag::in_doubt;
             EXPECT_EQ(outcomes[std::size_t(i)].flags, flags) << i;
             EXPECT_EQ(outcomes[std::size_t(i)].region == Region::undecided, i >= most);
         }

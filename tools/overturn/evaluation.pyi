@@ -25,6 +25,8 @@ class Outcome(TypedDict, total=False):
     fall_time: NDArray[float64]  #: time p t from uplift to |theta| = pi/2
     friction_demand: NDArray[float64]  #: friction coefficient needed
     normal: NDArray[float64]  #: smallest normal force over that at rest
+    slide: NDArray[float64]  #: final slide of the base over R
+    slide_peak: NDArray[float64]  #: largest |slide| of the base over R
     impacts: NDArray[uint16]  #: impacts during the ground motion
     steps: NDArray[uint32]  #: integration steps tried
     status: NDArray[uint8]  #: flags set during the integration
@@ -47,6 +49,7 @@ def evaluate(*,
              aspect_ratio: ArrayLike | None = ...,
              size: ArrayLike | None = ...,
              frequency_parameter: ArrayLike | None = ...,
+             friction: ArrayLike | None = ...,
              restitution: ArrayLike | None = ...,
              restitution_of_maximum: ArrayLike | None = ...,
              amplitude: ArrayLike | None = ...,

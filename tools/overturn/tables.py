@@ -1,7 +1,7 @@
 """Fields of a spectrum, quantities of its points. Written by tests/python/stub_test.py --write."""
 
-FIELDS = ("region", "angle", "velocity", "margin", "error", "peak", "fall_time", "friction_demand", "normal", "impacts",
-          "steps", "status")
+FIELDS = ("region", "angle", "velocity", "margin", "error", "peak", "fall_time", "friction_demand", "normal", "slide",
+          "slide_peak", "impacts", "steps", "status")
 # Units in sentences, role, and the quantity of which this is another spelling.
 QUANTITIES = {
     "direction": ("degree", "direction", ""),
@@ -21,6 +21,7 @@ QUANTITIES = {
     "aspect_ratio": ("", "block", "slenderness"),
     "size": ("m", "block", ""),
     "frequency_parameter": ("1/s", "block", "size"),
+    "friction": ("", "block", ""),
     "restitution": ("", "loss", ""),
     "restitution_of_maximum": ("", "loss", "restitution"),
     "amplitude": ("", "strength", ""),

@@ -140,8 +140,13 @@ public:
         return end;
     }
 
+    struct ContactNeeds {
+        ContactDemand<E> demand; ///< see ContactObserver::demand()
+        E to_stick;              ///< see ContactObserver::slip_demand()
+    };
+
     /// What the contact had to bear, if it was observed and all lanes have an end.
-    ContactDemand<E> contact_demand() const
+    ContactNeeds contact_needs() const
         requires(outputs.contact)
     {
         const State<T>& state = end_of_run_.state;
@@ -149,9 +154,10 @@ public:
         const Mask rocks_on = !(end_of_run_.fell || end_of_run_.is_stopped());
         const State<E> end{estimate_of(state.tilt), estimate_of(state.rate),
                            estimate_of(state.side)};
-        return contact_->demand(
-            end_of_run_.fell || !returns,
-            free_contact(end, estimate_of(block_), contact_->sides(), rocks_on));
+        const ContactDemand<E> later =
+            free_contact(end, estimate_of(block_), contact_->sides(), rocks_on);
+        return {contact_->demand(end_of_run_.fell || !returns, later),
+                contact_->slip_demand(later)};
     }
 
 private:
@@ -368,6 +374,9 @@ private:
         now_.side = select<T>(lanes, after.side, now_.side);
         if (is_two_sided_) {
             change_sides();
+            with_contact([&](auto& contact) {
+                contact.pass_impact(estimate_of(now_.side), estimate_of(block_.slenderness), lanes);
+            });
         }
         pass_event(EventKind::impact, counted);
         pass_event(EventKind::rest, dies_out);

@@ -17,6 +17,7 @@ struct Outputs {
     bool margin = false;
     bool steps = false;
     bool phase = false;  ///< at the end of the pulse, or at the fall
+    bool slide = false;  ///< of a base with a friction coefficient
     bool grazes = false; ///< lowest turn, softest and last impact, which a run with the peak has
 };
 

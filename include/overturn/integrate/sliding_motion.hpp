@@ -7,6 +7,7 @@
 #include "overturn/integrate/stepper_types.hpp"
 #include "overturn/mechanics/energy_criteria.hpp"
 #include "overturn/mechanics/free_contact.hpp"
+#include "overturn/mechanics/free_rocking.hpp"
 #include "overturn/mechanics/pulse_excitation.hpp"
 #include "overturn/mechanics/record_excitation.hpp"
 #include "overturn/mechanics/sliding_series.hpp"
@@ -33,12 +34,19 @@ struct SlidingEnd {
     bool capped = false;
     int impacts = 0; ///< during the ground motion
     int steps = 0;
+    S uplift = S(std::numeric_limits<double>::infinity()); ///< phase of the first uplift
     S phase = S(0);        ///< of the end of the ground motion, or of a fall before it
     S time_of_fall = S(0); ///< from that phase on, in units of time; infinite if it stands
     S peak = S(0);         ///< the largest tilt; on the side minus, times alpha+ / alpha- [rad]
     S slide = S(0);        ///< of the base, positive towards the side plus
     S slide_peak = S(0);   ///< its largest absolute value
 };
+
+/// A larger tolerance would gain little time: the series have the order 20.
+inline constexpr double loosest_sliding_tolerance = 1e-10;
+
+/// A verdict is confirmed by runs with these, the last one in long double.
+inline constexpr std::array tolerances_to_confirm{1e-12, 1e-14, 1e-17};
 
 /// How far a motion is followed after the ground has stopped.
 enum class Follow {
@@ -50,7 +58,10 @@ enum class Follow {
 inline constexpr int most_sliding_steps = 1 << 18;
 
 /// Excitation: PulseExcitation, or RecordExcitation. S: a scalar.
-template <Number S, class Excitation, int order = 20>
+template <Number S, class Excitation,
+          int order = std::same_as<Excitation, PulseExcitation<S>> ? 20
+                      : std::same_as<S, double>                    ? 10
+                                                                   : 16>
     requires(lanes_v<S> == 1)
 class SlidingMotion {
     using Series = SlidingSeries<order, S>;
@@ -185,8 +196,26 @@ private:
     /// The longest step, in units, of at most `left`, whose last terms in c are at most `allowed`.
     S longest(const S& left, const Coeffs& c, int last, const S& allowed) const
     {
-        S h = left;
         constexpr int terms = 4;
+        S h = left;
+        if constexpr (!is_pulse) { // an interval of a record is mostly short enough
+            for (bool is_short = is_free(); !is_short;) {
+                S power(1);
+                for (int k = 0; k < last - terms; ++k) {
+                    power = power * h;
+                }
+                is_short = true;
+                for (int k = last - terms + 1; k <= last; ++k) {
+                    power = power * h;
+                    is_short = is_short && abs(c[std::size_t(k)]) * power <= allowed;
+                }
+                h = is_short ? h : S(h * S(0.5));
+                is_short = is_short || h < left * S(0x1p-40);
+            }
+            if (!is_free()) {
+                return h;
+            }
+        }
         for (int k = last; k > last - terms; --k) {
             const S size = abs(c[std::size_t(k)]);
             if (size > 0) {
@@ -245,12 +274,15 @@ private:
     {
         side_ = side;
         if (on(side).friction > on(side).friction_to_lift()) {
+            lift();
             stick_or_slip();
         } else {
             mode_ = SlidingMode::slide;
             direction_ = side;
         }
     }
+
+    void lift() { result_.uplift = lesser<S>(result_.uplift, phase_); }
 
     /// Both corners are on the base, which moves at this velocity.
     void put_down(const S& velocity)
@@ -264,6 +296,7 @@ private:
         if (on(leading).friction > on(leading).friction_to_lift()) { // tips over
             side_ = leading;
             slip_ = abs(velocity);
+            lift();
             return begin_slip(S(1));
         }
         mode_ = SlidingMode::slide;
@@ -594,6 +627,9 @@ private:
         }
         const auto region = Region(int(region_code_after_pulse<theory>(state, block)));
         if (is_safe(region)) {
+            const S scale = block_.slenderness; // of the largest tilts over alpha
+            result_.peak =
+                greater<S>(result_.peak, scale * largest_free_tilt<theory>(state, block));
             return decide(Region::S);
         }
         if (follow_ == Follow::until_rest) {
@@ -654,5 +690,7 @@ SlidingEnd<S> run_sliding(const Block<S>& block, const S& gyration, const S& fri
 
 extern template class SlidingMotion<double, PulseExcitation<double>>;
 extern template class SlidingMotion<double, RecordExcitation<double, Directions::both>>;
+extern template class SlidingMotion<long double, PulseExcitation<long double>>;
+extern template class SlidingMotion<long double, RecordExcitation<long double, Directions::both>>;
 
 } // namespace overturn

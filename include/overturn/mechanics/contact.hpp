@@ -121,6 +121,16 @@ T friction_of_impact(const Block<T>& block, const ContactSide<T>& side, const Co
     return impulse.friction();
 }
 
+/// The friction coefficient that a plastic impact on the corner of this side needs for the corner
+/// not to slip: h b / (k^2 + h^2), which is less than b / h.
+template <Number T>
+T friction_of_plastic_impact(const ContactSide<T>& side, const T& slenderness)
+{
+    const FootOfCentre<T> foot = foot_of_centre(side, slenderness);
+    const T gyration = 1 / side.inertia - 1; // k^2 / R^2
+    return foot.height * foot.distance / (gyration + foot.height * foot.height);
+}
+
 /// The force whose horizontal part, positive outward, and vertical part are `level`, on the base.
 template <Number T>
 ContactForce<T> on_base(const ContactSide<T>& side, const ContactForce<T>& level)
@@ -216,11 +226,13 @@ template <Number T>
 struct ContactDemand {
     T friction = T(0); ///< the largest friction coefficient that it needs [1]
     T normal = T(std::numeric_limits<scalar_t<T>>::infinity()); ///< the smallest normal force
+    T impact = T(0); ///< the largest friction coefficient that an impact needs, if it is looked for
 
     void include(const ContactDemand& other, const mask_t<T>& lanes)
     {
         friction = select<T>(lanes, greater<T>(friction, other.friction), friction);
         normal = select<T>(lanes, lesser<T>(normal, other.normal), normal);
+        impact = select<T>(lanes, greater<T>(impact, other.impact), impact);
     }
 
     void forget(const mask_t<T>& lanes)

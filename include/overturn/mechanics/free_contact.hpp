@@ -101,6 +101,7 @@ template <Number T>
     const Mask moves = lanes && !(state.tilt == 0 && state.rate == 0);
     Mask open = moves;
     Mask gone = open && !open; // overturned
+    const bool has_two_sides = any<T>(!block.is_symmetric());
     const SineAndCosine<T> top{T(0), T(1)};
     for (int arc = 0; arc < 200; ++arc) {
         const T y = on.slenderness - now.tilt;
@@ -129,6 +130,12 @@ template <Number T>
         demand.include(demand_on_arc(sides.seen_from(now.side), q, low, high), open);
         gone = gone || (open && overturns);
         open = open && !gone;
+        if (has_two_sides) {
+            demand.include(
+                {T(0), demand.normal,
+                 friction_of_plastic_impact(sides.seen_from(-now.side), on.other.slenderness)},
+                open);
+        }
         const T largest = Nonlinear::separatrix_rate(on, T(0));
         const T speed = largest * largest - q;
         now = {T(0), on.rate_ratio() * sqrt(greater<T>(speed, 0)), -now.side};

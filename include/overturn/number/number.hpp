@@ -17,6 +17,11 @@ namespace arithmetic {
 {
     return std::fma(a, b, c);
 }
+/// Rounded twice: a fused one would take a hundred times longer.
+inline long double fma(long double a, long double b, long double c)
+{
+    return a * b + c;
+}
 } // namespace arithmetic
 using arithmetic::fma;
 
@@ -79,6 +84,9 @@ struct number_traits<double> : scalar_number_traits<double> {
     static constexpr std::uint64_t one_bits = 0x3ff0000000000000;       // bits of 1.0
     static constexpr std::uint64_t two_to_52_bits = 0x4330000000000000; // bits of 2^52
 };
+
+template <>
+struct number_traits<long double> : scalar_number_traits<long double> {};
 
 /// The type of one lane.
 template <class T>

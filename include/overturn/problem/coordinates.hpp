@@ -39,6 +39,10 @@ double free_fall_amplitude(const Scene& scene, const Point& point);
 /// block at rest; infinite if none does.
 double lifting_pga(const Scene& scene, const Point& point);
 
+/// The same for a motion that does not move the block at rest: it neither lifts it nor makes it
+/// slide.
+double moving_pga(const Scene& scene, const Point& point);
+
 /// The values of a coordinate in a box of points. It may vary along some of the dimensions only.
 struct CoordinateValues {
     std::vector<std::size_t> dimensions; ///< along which it varies, slowest first

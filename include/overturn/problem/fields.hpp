@@ -25,8 +25,8 @@ struct Field {
 
     /// Those that are known by name outside their row.
     static const Field region, angle, velocity, margin, error, peak, fall_time, friction_demand,
-        normal, impacts, steps, status, flip_amplitude, region_below, region_above, flip_pga,
-        unsafe_share, undecided_share, evaluated;
+        slide, slide_peak, normal, impacts, steps, status, flip_amplitude, region_below,
+        region_above, flip_pga, unsafe_share, undecided_share, evaluated;
 };
 
 inline constexpr Field Field::region{"region"};
@@ -37,6 +37,8 @@ inline constexpr Field Field::error{"error"};
 inline constexpr Field Field::peak{"peak"};
 inline constexpr Field Field::fall_time{"fall_time"};
 inline constexpr Field Field::friction_demand{"friction_demand"};
+inline constexpr Field Field::slide{"slide"};
+inline constexpr Field Field::slide_peak{"slide_peak"};
 inline constexpr Field Field::normal{"normal"};
 inline constexpr Field Field::impacts{"impacts"};
 inline constexpr Field Field::steps{"steps"};
@@ -129,6 +131,8 @@ inline constexpr std::uint8_t not_finite = 4;   ///< an infinity or NaN occurred
 inline constexpr std::uint8_t unresolved = 8;   ///< more digits did not settle the verdict
 inline constexpr std::uint8_t free_fall = 16; ///< the ground falls as fast as the block: undecided
 inline constexpr std::uint8_t lifts_off = 32; ///< the block leaves the ground, if that is computed
+inline constexpr std::uint8_t slipped = 64;   ///< on its base
+inline constexpr std::uint8_t jammed = 128;   ///< a corner that slips would be held fast: undecided
 inline constexpr std::uint8_t not_computed = 255;
 } // namespace status
 

@@ -3,6 +3,8 @@
 
 #include "overturn/mechanics/block.hpp"
 
+#include <limits>
+
 namespace overturn {
 
 /// The coordinates of a point, assumed to be exact.
@@ -20,6 +22,8 @@ struct Point {
     /// The radius of gyration about the centre of mass over R of the side plus; of a box by default
     /// [1]. Only the forces of the contact depend on it.
     double gyration = 0.57735026918962576; // 1 / sqrt(3)
+    /// Between block and base [1]; infinite if the block cannot slip.
+    double friction = std::numeric_limits<double>::infinity();
     double direction = 0; ///< of the motion, if there are two horizontal components [degree]
 };
 

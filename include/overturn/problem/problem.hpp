@@ -40,6 +40,9 @@ Tiling tiling_of(const Problem& problem);
 /// What the run of a problem counts.
 Items items_of(const Problem& problem);
 
+/// Why a field cannot be computed, as a clause; empty if it can. has_friction: of the blocks.
+std::string reason_not_to_compute(Field field, const Scene& scene, bool has_friction);
+
 /// Why a spectrum cannot be filled, as a clause; empty if it can.
 std::string reason_not_to_fill(const Problem& problem);
 

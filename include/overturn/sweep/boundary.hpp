@@ -8,6 +8,7 @@
 #include "overturn/problem/tile.hpp"
 #include "overturn/sweep/kernel.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -42,11 +43,14 @@ struct FlipSearch {
 };
 
 /// Under a record, smaller steps find more flips, and the verdicts closer to a flip need more
-/// digits.
-inline FlipSearch flip_search(const Scene& scene)
+/// digits. So do those of a block that may slip, for which there are none.
+inline FlipSearch flip_search(const Scene& scene, bool may_slip = false)
 {
     const MotionTraits& motion = scene.motion_traits();
-    return {.finest_step = motion.finest_step, .flip_width = motion.flip_width};
+    constexpr double width_with_slip = 1e-8;
+    return {.finest_step = motion.finest_step,
+            .flip_width =
+                may_slip ? std::max(motion.flip_width, width_with_slip) : motion.flip_width};
 }
 
 /// One line through a plane.

@@ -15,12 +15,12 @@ namespace overturn {
 
 /// The bits of Outcome::flags besides those of the field `status`, and sets of bits.
 namespace outcome_flag {
-inline constexpr std::uint8_t fell = 64;
-inline constexpr std::uint8_t in_doubt = 128; ///< only if the error is an output, see ForcedEnd
+inline constexpr std::uint16_t fell = 256;
+inline constexpr std::uint16_t in_doubt = 512; ///< only if the error is an output, see ForcedEnd
 /// The stored ones. resolve() sets `unresolved`; a point in `free_fall` is not integrated.
-inline constexpr std::uint8_t of_status = status::came_to_rest | status::cap_was_hit |
-                                          status::not_finite | status::unresolved |
-                                          status::free_fall | status::lifts_off;
+inline constexpr std::uint8_t of_status =
+    status::came_to_rest | status::cap_was_hit | status::not_finite | status::unresolved |
+    status::free_fall | status::lifts_off | status::slipped | status::jammed;
 /// The integration was stopped, or did not begin: the state is meaningless.
 inline constexpr std::uint8_t without_end =
     status::cap_was_hit | status::not_finite | status::free_fall;
@@ -29,10 +29,10 @@ inline constexpr std::uint8_t without_end =
 /// The outcome of the forced stage of a point. A kernel writes the values of the second group only
 /// if they are outputs.
 struct Outcome {
-    double tilt;        ///< |theta| [rad]
-    double rate;        ///< d|theta| / d tau [rad]
-    double side;        ///< +1 or -1: the sign of theta
-    std::uint8_t flags; ///< of the field `status`, and outcome_flag
+    double tilt;         ///< |theta| [rad]
+    double rate;         ///< d|theta| / d tau [rad]
+    double side;         ///< +1 or -1: the sign of theta
+    std::uint16_t flags; ///< of the field `status`, and outcome_flag
 
     Region region;
     double margin;          ///< [1]
@@ -46,9 +46,16 @@ struct Outcome {
     double last_impact;     ///< see ForcedEnd [rad]
     double friction_demand; ///< see ContactDemand::friction [1]
     double normal;          ///< see ContactDemand [1]
+    double to_stick;        ///< friction: see ContactObserver::slip_demand() [1]
+
+    // Of a block that slipped; with Outputs::slide of any with a friction coefficient.
+    double slide;      ///< of the base, in the unit of Block::size, positive towards plus
+    double slide_peak; ///< its largest absolute value
+    double uplift;     ///< phase of the first uplift [rad or samples]
+    double fall_after; ///< time from `phase` to |theta| = pi/2 [1/p]
 
     State<double> end() const { return {tilt, rate, side}; }
-    bool has(std::uint8_t any_of_flags) const { return (flags & any_of_flags) != 0; }
+    bool has(std::uint16_t any_of_flags) const { return (flags & any_of_flags) != 0; }
 
     /// The value of the field `impacts`. lifts_again: see MotionTraits.
     std::uint16_t stored_impacts(bool lifts_again) const

@@ -26,6 +26,17 @@ struct ToppleQuestion {
     std::function<void(std::size_t done, std::size_t all)> progress = nullptr;
 };
 
+/// What becomes of a block that may slip.
+struct SlipAnswer {
+    double friction = 0;     ///< between block and base
+    bool stays_flat = false; ///< it slides before it could lift
+    double moving_pga = 0;   ///< from which on it slides or lifts, over g
+    /// If a strength is asked for: of the base over R of the side plus; NaN if undecided.
+    double slide = 0;
+    double slide_peak = 0;
+    std::optional<Verdict> without; ///< the verdict of the block that cannot slip
+};
+
 struct ToppleAnswer {
     double direction = 0;                  ///< of the motion [degree]
     std::optional<Verdict> verdict;        ///< nullopt if no strength is asked for
@@ -34,8 +45,9 @@ struct ToppleAnswer {
     /// For each toppling range of the requested restitution: the largest friction from uplift to
     /// its lower end, NaN if one is unknown; empty in the linear theory.
     std::vector<double> friction_to_topple;
-    double pga = 0;  ///< of the point
-    double unit = 0; ///< of the strength 1: of the record that is not scaled
+    std::optional<SlipAnswer> slip; ///< with a friction coefficient
+    double pga = 0;                 ///< of the point
+    double unit = 0;                ///< of the strength 1: of the record that is not scaled
     double lifting_pga = 0;
     std::vector<RestitutionAnswer> by_restitution; ///< the requested one first
 

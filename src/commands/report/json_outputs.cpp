@@ -100,6 +100,18 @@ void add(Json& members, const DirectedAnswer& directed, const std::string* verdi
     members["lifts_off"] = answer.friction_demand && std::isinf(*answer.friction_demand);
     members["friction_to_topple"] = answer.friction_to_topple;
     members["lifting_pga"] = answer.lifting_pga;
+    Json& slip = members["slip"];
+    if (answer.slip) {
+        slip["friction"] = answer.slip->friction;
+        slip["stays_flat"] = answer.slip->stays_flat;
+        slip["moving_pga"] = answer.slip->moving_pga;
+        slip["slide_over_size"] = pga ? Json(answer.slip->slide) : Json();
+        slip["slide_peak_over_size"] = pga ? Json(answer.slip->slide_peak) : Json();
+        const auto& without = answer.slip->without;
+        slip["topples_without_slip"] = without == Verdict::topples ? Json(true)
+                                       : without == Verdict::safe  ? Json(false)
+                                                                   : Json();
+    }
     add(members, answer.requested(), pga);
     Json& others = members["by_restitution"] = Json::array();
     for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {

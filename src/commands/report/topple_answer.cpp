@@ -41,6 +41,38 @@ std::string friction_text(double friction)
                              rounded_up(friction, 2));
 }
 
+/// What a block that may slip does, in words. size: R [m], if it is known.
+std::string slip_text(const ToppleAnswer& answer, const std::optional<double>& size)
+{
+    const SlipAnswer& slip = *answer.slip;
+    const auto length = [&](double over_size) {
+        return size ? fmt::format("{:.3g} mm", 1000 * *size * over_size)
+                    : fmt::format("{:.3g} R", over_size);
+    };
+    const std::string moves =
+        std::isinf(slip.moving_pga) ? "does not move at any strength"
+        : slip.moving_pga < answer.lifting_pga
+            ? fmt::format("slides from {:.4f} g{}", rounded_down(slip.moving_pga, 4),
+                          slip.stays_flat ? ", does not rock" : "")
+            : "lifts before it slides";
+    std::string text = fmt::format("coefficient {}: {}", slip.friction, moves);
+    if (!answer.verdict) {
+        return text;
+    }
+    text += std::isnan(slip.slide) ? "; how far it slides is unknown"
+            : slip.slide_peak == 0
+                ? "; does not slip here"
+                : fmt::format("; slides {}, at most {} away", length(std::abs(slip.slide)),
+                              length(slip.slide_peak));
+    if (slip.slide_peak != 0 && answer.verdict != Verdict::undecided) {
+        text += slip.without == answer.verdict     ? "; the verdict without slip is the same"
+                : slip.without == Verdict::topples ? "; sliding helps: without slip it topples"
+                : slip.without == Verdict::safe ? "; sliding harms: without slip it does not topple"
+                                                : "; the verdict without slip is undecided";
+    }
+    return text;
+}
+
 /// The motion, but for its direction.
 std::string motion_text(const Job& job, const ToppleOptions& options)
 {
@@ -104,7 +136,9 @@ void print_ranges(const Scene& scene, const ToppleAnswer& answer)
 {
     const VerdictRanges& requested = answer.requested().ranges;
     const int decimals = decimals_of(requested, answer.pga);
-    print_row("lifts from", fmt::format("{:.4f} g", rounded_down(answer.lifting_pga, 4)));
+    print_row("lifts from", std::isinf(answer.lifting_pga)
+                                ? "no strength"
+                                : fmt::format("{:.4f} g", rounded_down(answer.lifting_pga, 4)));
     print_row("topples", text_of(requested, decimals) +
                              (requested.ends_in_free_fall
                                   ? fmt::format("; at {:.6g} g the vertical motion cancels gravity",
@@ -161,7 +195,13 @@ void print_answer(const std::vector<DirectedAnswer>& all, const ToppleOptions& o
         if (answer.verdict) {
             print_row("peak tilt", peak_text(answer.peak, job.problem));
         }
-        if (answer.friction_demand) {
+        if (answer.slip) {
+            const auto size = extent_of(job, "size");
+            const auto size_plus = extent_of(job, "size_plus");
+            print_row("friction", slip_text(answer, size        ? std::optional(size->first)
+                                                    : size_plus ? std::optional(size_plus->first)
+                                                                : std::nullopt));
+        } else if (answer.friction_demand) {
             print_row("friction", job.problem.scene.worded(friction_text(*answer.friction_demand)));
         }
         print_ranges(job.problem.scene, answer);

@@ -103,6 +103,15 @@ public:
         kept_.include(demand, lanes);
     }
 
+    /// The block strikes the corner of a side, which makes a difference only if its sides differ: a
+    /// symmetric block needs more friction to lift than to strike.
+    void pass_impact(const T& side, const T& slenderness, const Mask& lanes)
+    {
+        kept_.include(
+            {T(0), kept_.normal, friction_of_plastic_impact(sides_.seen_from(side), slenderness)},
+            lanes);
+    }
+
     const ContactSides<T>& sides() const { return sides_; }
 
     /// What the contact had to bear so far and bears later. gone: the lanes that do not come back
@@ -115,6 +124,18 @@ public:
         const T infinite(std::numeric_limits<S>::infinity());
         return {select<T>(demand.normal > 0, demand.friction, infinite),
                 demand.normal / sides_.plus.cosine};
+    }
+
+    /// The friction coefficient from which on the block slips nowhere, impacts included, until the
+    /// motion ends, however far it has tilted, and later until it last passes alpha.
+    T slip_demand(const ContactDemand<T>& later) const
+    {
+        ContactDemand<T> demand = kept_;
+        const Mask all = kept_.impact == kept_.impact;
+        demand.include(beyond_, all);
+        demand.include(later, all);
+        const T infinite(std::numeric_limits<S>::infinity());
+        return select<T>(demand.normal > 0, greater<T>(demand.friction, demand.impact), infinite);
     }
 
 private:
