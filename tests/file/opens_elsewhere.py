@@ -121,7 +121,8 @@ class TestXarray(Sample):
             status = dict(zip(dataset.status.attrs["flag_meanings"].split(),
                               dataset.status.attrs["flag_masks"]))
             self.assertEqual(status, {"came_to_rest": 1, "cap_was_hit": 2, "not_finite": 4,
-                                      "unresolved": 8, "free_fall": 16, "lifts_off": 32})
+                                      "unresolved": 8, "free_fall": 16, "lifts_off": 32,
+                                      "slipped": 64, "jammed": 128})
             impacts = dict(zip(dataset.impacts.attrs["flag_meanings"].split(),
                                dataset.impacts.attrs["flag_values"]))
             self.assertEqual(impacts["bounce_series"], 65535)

@@ -14,7 +14,7 @@ its picture to a folder, beside `machine.txt`: processor, versions, date and com
 other programs meanwhile."""
 
 COMMANDS = ("peers", "peers --record", "kernel", "effects", "run", "ranks",
-            "ranks --record --points 512", "records", "records --museum", "scale", "fill", "picture")
+            "ranks --record --points 512", "records", "records --museum", "sliding", "scale", "fill", "picture")
 
 
 def add_arguments(parser):

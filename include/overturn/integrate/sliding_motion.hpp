@@ -340,16 +340,14 @@ private:
         }
     }
 
-    /// Sticks if the base can hold the corner, else slips.
+    /// Sticks if the base can hold the corner, else slips: also if it would have to pull at a
+    /// corner that sticks, as one that slips may still be pressed to the base.
     void stick_or_slip()
     {
         slip_ = S(0);
         const Field2<Coeffs> field = field_series(side_);
         const ContactForce<S> force = force_of_sticking(here(), on_corner(here(), tilt_), turning_,
                                                         Field2<S>{field.along[0], field.normal[0]});
-        if (!(force.normal > 0)) {
-            return leave_ground();
-        }
         if (abs(force.along) <= here().friction * force.normal) {
             mode_ = SlidingMode::rock;
             velocity_ = S(0);
