@@ -37,6 +37,8 @@ constexpr PlausibleRange implied_incline{"the incline that the angles and distan
                                          "compare it with the base; angles are in radians"};
 constexpr PlausibleRange gyration{"the radius of gyration", " R", 0.1, 1.5,
                                   "lengths are in metres"};
+constexpr PlausibleRange friction{"the friction coefficient", "", 0.03, 1.5,
+                                  "it is the tangent of the friction angle"};
 constexpr PlausibleRange period{"the period of the pulse", " s", 0.02, 20,
                                 "periods are in seconds, and lengths in metres"};
 constexpr PlausibleRange acceleration{"the peak ground acceleration", " g", 0, 5,
@@ -219,6 +221,12 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
         judge(size, name);
     }
     judge(gyration, "gyration_over_size");
+    judge(friction, "friction");
+    if (grid.find("friction") != nullptr && scene.has_two_components()) {
+        findings.emplace_back(
+            "the slip is computed in the plane of the direction only, without the "
+            "motion across it");
+    }
     judge(grid.find("size_plus") != nullptr ? implied_incline : incline, "incline", "",
           std::numbers::pi / 180);
     if (coordinates.has("center_height") && coordinates.has("half_height")) {

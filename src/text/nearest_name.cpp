@@ -54,6 +54,9 @@ std::string_view nearest_name(std::string_view word, std::span<const std::string
             least = distance;
         }
     }
+    if (word == "mu") {
+        word = "friction_coefficient";
+    }
     const auto begins_with = [](std::string_view whole, std::string_view part) {
         return !part.empty() && whole.size() > part.size() && whole.starts_with(part) &&
                whole[part.size()] == '_';

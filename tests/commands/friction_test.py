@@ -163,7 +163,7 @@ class Friction(Scratch):
         self.assert_exit(self.overturn("run", "job.toml"), 65, "without the key friction, no block slips")
         for name in ("mu", "friction_coefficient"):
             (self.folder / "job.toml").write_text(text.replace("friction = 0.4", f"{name} = 0.4"))
-            self.assert_exit(self.overturn("run", "job.toml"), 65, f"block.{name}")
+            self.assert_exit(self.overturn("run", "job.toml"), 65, f"block.{name}", 'Did you mean "block.friction"?')
         (self.folder / "job.toml").write_text(text.replace('"friction_demand"', '"friction"'))
         self.assert_exit(self.overturn("run", "job.toml"), 65, 'Did you mean "friction_demand"?')
 

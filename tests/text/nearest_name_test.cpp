@@ -34,6 +34,16 @@ TEST(NearestName, IsTheNearestOfSeveral)
     EXPECT_EQ(nearest_name("half_sin", names), "half_sine");
 }
 
+TEST(NearestName, IsOneThatBeginsWithTheWordOrTheOtherWayRound)
+{
+    constexpr std::string_view fields[]{"region", "friction_demand", "normal"};
+    EXPECT_EQ(nearest_name("friction", fields), "friction_demand");
+    EXPECT_EQ(nearest_name("fric", fields), "");
+    constexpr std::string_view keys[]{"width", "friction"};
+    EXPECT_EQ(nearest_name("friction_coefficient", keys), "friction");
+    EXPECT_EQ(nearest_name("mu", keys), "friction");
+}
+
 TEST(NearestName, IsEmptyForAWordUnlikeAll)
 {
     EXPECT_EQ(nearest_name("earthquake", names), "");

@@ -7,7 +7,9 @@
 namespace overturn {
 
 /// The name nearest to `word` by edit distance, ignoring case; the first of several equally near
-/// ones. Empty if none is near: at most a third of the longer of the two may differ.
+/// ones: at most a third of the longer of the two may differ. Without one, the first name that
+/// begins with the word and an underscore, or the other way round; mu is a friction_coefficient.
+/// Empty if none is near.
 std::string_view nearest_name(std::string_view word, std::span<const std::string_view> names);
 
 } // namespace overturn

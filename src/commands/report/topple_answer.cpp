@@ -59,11 +59,16 @@ std::string slip_text(const ToppleAnswer& answer, const std::optional<double>& s
     if (!answer.verdict) {
         return text;
     }
-    text += std::isnan(slip.slide) ? "; how far it slides is unknown"
-            : slip.slide_peak == 0
-                ? "; does not slip here"
-                : fmt::format("; slides {}, at most {} away", length(std::abs(slip.slide)),
-                              length(slip.slide_peak));
+    if (std::isnan(slip.slide)) {
+        text += "; how far it slides is unknown";
+    } else if (slip.slide_peak == 0) {
+        text += "; does not slip here";
+    } else {
+        const bool returns = std::abs(slip.slide) < 1e-6 * slip.slide_peak;
+        text += fmt::format("; slides {}, at most {} away",
+                            returns ? "and returns" : length(std::abs(slip.slide)),
+                            length(slip.slide_peak));
+    }
     if (slip.slide_peak != 0 && answer.verdict != Verdict::undecided) {
         text += slip.without == answer.verdict     ? "; the verdict without slip is the same"
                 : slip.without == Verdict::topples ? "; sliding helps: without slip it topples"

@@ -293,7 +293,9 @@ std::string peak_text(double peak, const Problem& problem)
     const auto slenderness = only_slenderness_of(problem);
     return std::isnan(peak)   ? "undecided"
            : std::isinf(peak) ? "the block overturns"
-           : peak == 0        ? "0: the block is not lifted and stays at rest"
+           : peak == 0        ? (problem.grid.find("friction") != nullptr
+                                     ? "0: the block is not lifted"
+                                     : "0: the block is not lifted and stays at rest")
            : slenderness      ? fmt::format("{:.4g} degrees, {:.3g} % of alpha",
                                             in_degrees(peak * *slenderness), 100 * peak)
                               : fmt::format("{:.3g} % of alpha of its side", 100 * peak);
