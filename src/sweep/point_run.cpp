@@ -450,8 +450,11 @@ void judge_contact(Outcome& outcome, bool is_known)
 void PointRun::add_contact(Outcomes& outcomes) const
 {
     const bool is_sensitive = scene_.motion_traits().is_sensitive;
-    Outcomes watched(
-        size(), {.error = is_sensitive, .contact = true, .region = true, .margin = is_sensitive});
+    Outcomes watched(size(), {.error = is_sensitive,
+                              .contact = true,
+                              .region = true,
+                              .margin = is_sensitive,
+                              .slide = has_friction()});
     run(most_accurate, watched, all());
     if (is_sensitive) {
         std::vector<int> in_doubt = all();
@@ -476,6 +479,7 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
     computed.margin = outputs.margin || numerics.resolve;
     computed.steps = outputs.steps || numerics.resolve; // see is_short()
     const bool wants_contact = outputs.contact || points.has_friction();
+    computed.slide = points.has_friction();
     computed.region = outputs.region || wants_contact;
     // More digits may give another verdict, and do not see the contact.
     computed.contact = wants_contact && !numerics.resolve;

@@ -79,10 +79,12 @@ template <Theory theory, Outputs outputs>
     }
     if constexpr (outputs.contact) {
         if (wanted.contact) {
-            const auto needs = stage.contact_needs();
+            const auto needs = stage.contact_needs(wanted.slide);
             put(needs.demand.friction, &Outcome::friction_demand);
             put(needs.demand.normal, &Outcome::normal);
-            put(needs.to_stick, &Outcome::to_stick);
+            if (wanted.slide) {
+                put(needs.to_stick, &Outcome::to_stick);
+            }
         }
     }
     if (wanted.region) {

@@ -142,11 +142,11 @@ public:
 
     struct ContactNeeds {
         ContactDemand<E> demand; ///< see ContactObserver::demand()
-        E to_stick;              ///< see ContactObserver::slip_demand()
+        E to_stick;              ///< see ContactObserver::slip_demand(); if it is wanted
     };
 
     /// What the contact had to bear, if it was observed and all lanes have an end.
-    ContactNeeds contact_needs() const
+    ContactNeeds contact_needs(bool with_to_stick) const
         requires(outputs.contact)
     {
         const State<T>& state = end_of_run_.state;
@@ -157,7 +157,7 @@ public:
         const ContactDemand<E> later =
             free_contact(end, estimate_of(block_), contact_->sides(), rocks_on);
         return {contact_->demand(end_of_run_.fell || !returns, later),
-                contact_->slip_demand(later)};
+                with_to_stick ? contact_->slip_demand(later) : E(0)};
     }
 
 private:

@@ -16,8 +16,9 @@ struct Outputs {
     bool region = false;
     bool margin = false;
     bool steps = false;
-    bool phase = false;  ///< at the end of the pulse, or at the fall
-    bool slide = false;  ///< of a base with a friction coefficient
+    bool phase = false; ///< at the end of the pulse, or at the fall
+    bool slide =
+        false; ///< of blocks that may slip; of a kernel, the friction that they need to stick
     bool grazes = false; ///< lowest turn, softest and last impact, which a run with the peak has
 };
 
