@@ -14,7 +14,7 @@ JOB = """
 [scene]
 {scene}
 [block]
-width = 0.6
+width = {width}
 height = 1.8
 friction = {friction}
 {block}
@@ -34,9 +34,9 @@ FIELDS = ["region", "angle", "velocity", "margin", "error", "peak", "fall_time",
 
 class Friction(Scratch):
     def write(self, scene='pulse = "one_sine"', motion=PULSE, block="", friction="0.4", restitution="1", numerics="",
-              fields=FIELDS):
+              width=0.6, fields=FIELDS):
         (self.folder / "job.toml").write_text(JOB.format(scene=scene, motion=motion, block=block, friction=friction,
-                                                         restitution=restitution, numerics=numerics,
+                                                         restitution=restitution, numerics=numerics, width=width,
                                                          fields=json.dumps(list(fields))))
 
     def computed(self, **what):
@@ -81,6 +81,16 @@ class Friction(Scratch):
                             # A block that needs less than the coefficient until it last passes alpha, and stands.
                             stands = (plain["region"][()].ravel() <= 2) & (plain["friction_demand"][()].ravel() < 5)
                             self.assertTrue(same[stands].all())
+
+    def test_is_needed_by_impacts_of_blocks_with_two_sides(self):
+        # h b / (k^2 + h^2) is 0.35 at the corner plus; the block lifts at the corner minus, which needs 0.1875.
+        block = "center_offset = -0.1\ncenter_height = 0.8\nradius_of_gyration = 0.4"
+        for friction, slips in ((0.3499, True), (0.3501, False)):
+            found = self.computed(friction=str(friction), motion="pulse_period = 0.5\npga = 0.19",
+                                  width=0.5, block=block, fields=["status", "friction_demand", "impacts", "region"])
+            self.assertEqual(bool(found["status"][0] & SLIPPED), slips)
+            self.assertLess(found["friction_demand"][0], 0.3499)
+            self.assertLessEqual(found["region"][0], 2)
 
     def test_goes_with_every_pulse(self):
         for pulse in ("one_sine", "one_cosine", "symmetric_ricker", "antisymmetric_ricker", "half_sine", "rectangular",

@@ -226,13 +226,18 @@ template <Number T>
 struct ContactDemand {
     T friction = T(0); ///< the largest friction coefficient that it needs [1]
     T normal = T(std::numeric_limits<scalar_t<T>>::infinity()); ///< the smallest normal force
-    T impact = T(0); ///< the largest friction coefficient that an impact needs, if it is looked for
+    T impact = T(0); ///< the largest friction coefficient that an impact needs, if that is included
 
+    /// All but the impacts.
     void include(const ContactDemand& other, const mask_t<T>& lanes)
     {
         friction = select<T>(lanes, greater<T>(friction, other.friction), friction);
         normal = select<T>(lanes, lesser<T>(normal, other.normal), normal);
-        impact = select<T>(lanes, greater<T>(impact, other.impact), impact);
+    }
+
+    void include_impact(const T& friction_of_impact, const mask_t<T>& lanes)
+    {
+        impact = select<T>(lanes, greater<T>(impact, friction_of_impact), impact);
     }
 
     void forget(const mask_t<T>& lanes)

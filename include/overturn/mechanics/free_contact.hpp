@@ -131,10 +131,8 @@ template <Number T>
         gone = gone || (open && overturns);
         open = open && !gone;
         if (has_two_sides) {
-            demand.include(
-                {T(0), demand.normal,
-                 friction_of_plastic_impact(sides.seen_from(-now.side), on.other.slenderness)},
-                open);
+            demand.include_impact(
+                friction_of_plastic_impact(sides.seen_from(-now.side), on.other.slenderness), open);
         }
         const T largest = Nonlinear::separatrix_rate(on, T(0));
         const T speed = largest * largest - q;

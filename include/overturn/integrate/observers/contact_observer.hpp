@@ -107,9 +107,8 @@ public:
     /// symmetric block needs more friction to lift than to strike.
     void pass_impact(const T& side, const T& slenderness, const Mask& lanes)
     {
-        kept_.include(
-            {T(0), kept_.normal, friction_of_plastic_impact(sides_.seen_from(side), slenderness)},
-            lanes);
+        kept_.include_impact(friction_of_plastic_impact(sides_.seen_from(side), slenderness),
+                             lanes);
     }
 
     const ContactSides<T>& sides() const { return sides_; }
@@ -131,11 +130,12 @@ public:
     T slip_demand(const ContactDemand<T>& later) const
     {
         ContactDemand<T> demand = kept_;
-        const Mask all = kept_.impact == kept_.impact;
+        const Mask all = kept_.normal == kept_.normal;
         demand.include(beyond_, all);
         demand.include(later, all);
         const T infinite(std::numeric_limits<S>::infinity());
-        return select<T>(demand.normal > 0, greater<T>(demand.friction, demand.impact), infinite);
+        const T impact = greater<T>(kept_.impact, later.impact);
+        return select<T>(demand.normal > 0, greater<T>(demand.friction, impact), infinite);
     }
 
 private:
