@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <random>
 
 namespace overturn {
@@ -112,6 +114,62 @@ TEST(SlidingMotion, OfTheMirroredMotionIsMirrored)
         EXPECT_NEAR(one.slide_peak, other.slide_peak, rounding);
         EXPECT_EQ(is_unsafe(one.region), is_unsafe(other.region));
         EXPECT_EQ(one.impacts, other.impacts);
+    }
+}
+
+/// The mode with which a block at rest begins to move under a jump of the ground acceleration to A
+/// g (Shenton 1996): it rests up to the smaller of mu and b/h; above mu < b/h it slides; above b/h
+/// it rocks if mu is at least |F| / N of a corner that sticks, else it slips as it rocks, with
+///
+///     F / m g = A - lambda h (A h - b) / R^2,   N / m g = 1 + lambda b (A h - b) / R^2
+///
+/// in magnitude, lambda = m R^2 / I.
+SlidingMode mode_at_onset(double A, double friction, double b, double h)
+{
+    const double lambda = 0.75;
+    const double turning = lambda * (A * h - b) / (b * b + h * h);
+    return A <= std::min(friction, b / h)                    ? SlidingMode::rest
+           : friction <= b / h                               ? SlidingMode::slide
+           : A - turning * h <= friction * (1 + turning * b) ? SlidingMode::rock
+                                                             : SlidingMode::slide_rock;
+}
+
+TEST(SlidingMotion, BeginsInTheModeOfShentonsMap)
+{
+    const Box box;
+    std::array<int, 4> found{};
+    for (int i = 1; i <= 60; ++i) {
+        for (int j = 1; j <= 40; ++j) {
+            const double A = 0.0503 * i;
+            const double friction = 0.0251 * j;
+            SlidingMotion<double, PulseExcitation<double>> motion(
+                box.block(), Box::gyration, friction, box.pulse(PulseKind::rectangular, 1, A),
+                1e-12);
+            const SlidingMode expected = mode_at_onset(A, friction, 0.3, 0.9);
+            EXPECT_EQ(motion.mode(), expected) << A << ", " << friction;
+            ++found[std::size_t(expected)];
+        }
+    }
+    EXPECT_TRUE(std::ranges::all_of(found, [](int count) { return count > 100; }));
+}
+
+TEST(SlidingMotion, DoesNotDependOnTheUnits)
+{
+    // The same block in metres and seconds: sizes and frequencies are not powers of two.
+    const Box box;
+    const double p = box.p;
+    for (const double pga : {0.6, 0.95, 1.5, 2.3}) {
+        const auto one = box.under(PulseKind::one_sine, 0.5, pga, 0.4);
+        const Block<double> of = box.block();
+        const BlockSide<double> side{of.slenderness, box.R, p};
+        const auto in_metres = pulse_excitation<Theory::nonlinear>(
+            pulse_motion<double>(PulseKind::one_sine), Block<double>(side, of.restitution, side),
+            pga / std::tan(of.slenderness), 2 * pi<double>() / 0.5);
+        const auto other = run_sliding<double>(Block<double>(side, of.restitution, side),
+                                               Box::gyration, 0.4, in_metres, 1e-12);
+        EXPECT_EQ(one.region, other.region);
+        EXPECT_NEAR(one.slide * box.R, other.slide, 1e-11);
+        EXPECT_NEAR(one.peak, other.peak, 1e-11);
     }
 }
 

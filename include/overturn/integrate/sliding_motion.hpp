@@ -539,6 +539,10 @@ private:
         }
         is_ended_ = true;
         result_.phase = end_;
+        if (mode_ == SlidingMode::rest) { // the side of the higher barrier has the smaller margin
+            const S largest = Equations<theory>::separatrix_rate(block_, S(0));
+            side_ = barrier_ratio<theory>(largest, block_) > 1 ? S(-1) : S(1);
+        }
         result_.state = {tilt_, turning_ / (unit_ * p_of_side()), side_};
         const Block<S> block = seen_from(side_, block_);
         const S c = Equations<theory>::separatrix_rate(block, tilt_);
