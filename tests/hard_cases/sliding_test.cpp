@@ -114,6 +114,18 @@ TEST(Sliding, OnAnInclineNearTheAngleOfFrictionEnds)
     }
 }
 
+TEST(Sliding, OfABlockThatIsPushedOffItsInclineIsUndecided)
+{
+    // The push towards the side plus, which is downhill, relieves the base of A sin(incline).
+    Body body{0.9, 0.9, 0.9, 0.6};
+    body.incline = 0.3;
+    const double off = 1 / std::tan(body.incline);
+    EXPECT_EQ(end_of(body, 0.35, -0.99 * off, PulseKind::half_sine).region, Region::S);
+    const auto end = end_of(body, 0.35, -1.01 * off, PulseKind::half_sine);
+    EXPECT_EQ(end.region, Region::undecided);
+    EXPECT_TRUE(end.lifted_off);
+}
+
 TEST(Sliding, WithManyBouncesEnds)
 {
     for (const double share : {0.05, 0.5, 1.0}) {

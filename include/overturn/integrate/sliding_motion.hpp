@@ -328,6 +328,13 @@ private:
         const S stop = first_fall(speed, h, noise);
         const bool stops = stop >= 0;
         const S taken = stops ? stop : h;
+        Coeffs pressed = field.normal;
+        for (S& each : pressed) {
+            each = -each;
+        }
+        if (first_fall(pressed, taken, S(0)) >= 0) { // as a strong push may on an incline
+            return leave_ground();
+        }
         result_.slide = result_.slide + direction_ * polynomial_at(path, taken);
         velocity_ = direction_ * polynomial_at(speed, taken) / unit_;
         pass_time(taken, !stops && h == left);
