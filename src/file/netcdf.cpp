@@ -50,7 +50,7 @@ void write_origin(hid_t file, const Job& job, FileKind kind)
     if (const Pulse* pulse = scene.pulse()) {
         write_attribute(file, "pulse", name_of(pulse->kind));
         for (const auto& [name, value] : pulse->numbers()) {
-            write_attribute(file, name.data(), value);
+            write_attribute(file, std::string(name).c_str(), value);
         }
     } else {
         const std::size_t count = job.motions.size();

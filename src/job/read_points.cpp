@@ -106,8 +106,8 @@ std::vector<Given> given_coordinates(const Entry& job, const MotionTraits& motio
                     name = "restitution_of_maximum"; // of which this is another spelling
                 }
             }
-            given.push_back({&quantity(name), entry->key, read_axis(*entry, quantity(name), keys),
-                             entry->node->is_number() ? GivenAs::number : GivenAs::axis});
+            given.emplace_back(&quantity(name), entry->key, read_axis(*entry, quantity(name), keys),
+                               entry->node->is_number() ? GivenAs::number : GivenAs::axis);
         }
     }
     return given;

@@ -163,7 +163,7 @@ struct Reading {
 std::optional<Entry> choice_of_record(std::size_t record, std::string_view key,
                                       const Reading& reading)
 {
-    const auto entry = find(reading.scene, key);
+    auto entry = find(reading.scene, key);
     if (!entry || !entry->node->is_array()) {
         return entry;
     }

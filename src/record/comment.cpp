@@ -51,9 +51,8 @@ struct Place {
     {
         const std::string_view next = word(offset);
         const std::string_view previous = word(offset - 1);
-        const char* const end = previous.data() + previous.size();
-        return next.empty() ? next
-                            : std::string_view(previous.empty() ? text.data() : end, next.data());
+        const auto from = previous.empty() ? text.begin() : previous.end();
+        return next.empty() ? next : std::string_view(from, next.begin());
     }
 
     /// Whether a unit is expected here: as the whole comment, in brackets, after "in", and in the

@@ -180,7 +180,7 @@ std::optional<RecordComponent> take_channel(Lines& lines)
     const HeaderValues integers = take_header_values(lines, "Integer-header");
     ChannelName name = channel_name(before, integers.lines.number());
     const HeaderValues reals = take_header_values(lines, "Real-header");
-    const std::string code = take_comments(lines);
+    std::string code = take_comments(lines);
     if (!next_text(lines)) {
         lines.refuse("the file ends within the header. Give the complete file.");
     }
@@ -207,15 +207,15 @@ std::optional<RecordComponent> take_channel(Lines& lines)
                                                                        .time_step = time_step,
                                                                        .rounding = rounding,
                                                                        .may_have_offset = is_raw});
-    return RecordComponent{.name = is_named || code.empty() ? std::move(name.direction) : code,
-                           .place = std::move(name.place),
-                           .acceleration =
-                               unit ? std::move(samples) : over_g(reals, std::move(samples)),
-                           .unit = unit.value_or(AccelerationUnit::g),
-                           .time_step = time_step,
-                           .is_uncorrected = is_raw,
-                           .remarks = std::move(remarks),
-                           .header = kept_lines(before, announcing.number())};
+    return RecordComponent{
+        .name = is_named || code.empty() ? std::move(name.direction) : std::move(code),
+        .place = std::move(name.place),
+        .acceleration = unit ? std::move(samples) : over_g(reals, std::move(samples)),
+        .unit = unit.value_or(AccelerationUnit::g),
+        .time_step = time_step,
+        .is_uncorrected = is_raw,
+        .remarks = std::move(remarks),
+        .header = kept_lines(before, announcing.number())};
 }
 
 /// Proceeds beyond the line that ends a channel. Refuses further samples.

@@ -48,7 +48,7 @@ struct ScaledPulses {
 };
 
 /// Points of one scene, prepared for integration. Long computations throw TileDropped on request.
-class PointRun : public PointsOfScene {
+class PointRun final : public PointsOfScene {
 public:
     /// are_symmetric: whether all blocks are known to be; then a kernel reads less of each.
     PointRun(const Scene& scene, std::vector<Point> points, Kernel kernel,
