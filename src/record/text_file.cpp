@@ -33,9 +33,8 @@ std::string text_of_file(const std::string& path, const TextFileKind& kind)
     expect(file != nullptr);
     std::string text;
     std::array<char, 1 << 16> block;
-    std::size_t size = block.size();
-    while (size == block.size()) {
-        size = std::fread(block.data(), 1, block.size(), file.get());
+    while (std::feof(file.get()) == 0 && std::ferror(file.get()) == 0) {
+        const std::size_t size = std::fread(block.data(), 1, block.size(), file.get());
         expect_size(text.append(block.data(), size).size());
     }
     expect(std::ferror(file.get()) == 0);

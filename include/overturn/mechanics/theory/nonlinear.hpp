@@ -19,7 +19,8 @@ void extend(RockingSeries<order, T>& motion, Coefficients<order, T>& s, Coeffici
             const auto& push)
 {
     using S = scalar_t<T>;
-    auto& [x, v] = motion;
+    auto& x = motion.tilt;
+    auto& v = motion.rate;
     unrolled<last - first>([&]<int i>() {
         constexpr int k = first + i;
         T c_v(0);
