@@ -82,13 +82,11 @@ std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const st
 void expect_study_output(const Job& job, const std::string& path, FileKind kind,
                          const OutputLock& lock)
 {
-    if (job.problem.grid.find("friction") != nullptr) {
+    if (kind == FileKind::accuracy && job.problem.grid.may_slip()) {
         throw Error(
             exit_code::job,
-            "friction is given, but this {} is that of a block that does not slip. Remove "
-            "friction; what becomes of a block that slips is computed by `overturn run` and "
-            "`overturn topple`.",
-            name_of(kind));
+            "friction is given, but this accuracy study is that of a block that does not slip. "
+            "Remove friction.");
     }
     const GuardedReading guarded(path, lock.path());
     expect_room_for(path, kind);

@@ -37,6 +37,27 @@ constexpr SampleQuantity quantities[] = {
      "base"},
 };
 
+// Of a block with a friction coefficient.
+constexpr SampleQuantity quantities_of_slip[] = {
+    {"slide", "position of the base over R", "1", &HistorySample::slide,
+     "positive towards the side plus"},
+    {"slide_velocity", "d slide / d(p t)", "1", &HistorySample::slide_velocity},
+    {"force_along", "force of the base along it, over the weight", "1", &HistorySample::force_along,
+     "positive towards the side plus"},
+    {"force_normal", "force of the base normal to it, over the weight", "1",
+     &HistorySample::force_normal},
+};
+
+/// Those of a job.
+std::vector<SampleQuantity> quantities_of(const Job& job)
+{
+    std::vector<SampleQuantity> all(std::begin(quantities), std::end(quantities));
+    if (job.problem.grid.may_slip()) {
+        all.insert(all.end(), std::begin(quantities_of_slip), std::end(quantities_of_slip));
+    }
+    return all;
+}
+
 /// `when` is appended to the long name of the quantity.
 void add_quantity(hid_t file, const Scene& scene, const std::string& name,
                   const SampleQuantity& quantity, const std::vector<HistorySample>& samples,
@@ -51,8 +72,9 @@ void add_quantity(hid_t file, const Scene& scene, const std::string& name,
                         scene.worded(quantity.comment)});
 }
 
-void add_events(hid_t file, const Scene& scene, const std::vector<HistoryEvent>& events)
+void add_events(hid_t file, const Job& job, const std::vector<HistoryEvent>& events)
 {
+    const Scene& scene = job.problem.scene;
     const std::vector<HistorySample> before = mapped(events, &HistoryEvent::before);
     const std::vector<HistorySample> after = mapped(events, &HistoryEvent::after);
     const auto code_of = [](const HistoryEvent& event) { return std::uint8_t(event.kind); };
@@ -65,7 +87,7 @@ void add_events(hid_t file, const Scene& scene, const std::vector<HistoryEvent>&
                         .values = mapped(events, code_of),
                         .long_name = "kind of the event",
                         .code_names = event_names});
-    for (const SampleQuantity& quantity : quantities) {
+    for (const SampleQuantity& quantity : quantities_of(job)) {
         const std::string name = std::string("events/") + quantity.name;
         add_quantity(file, scene, name + "_before", quantity, before, ", before the event");
         add_quantity(file, scene, name + "_after", quantity, after, ", after the event");
@@ -190,8 +212,9 @@ bool is_as_written(hid_t file, FileKind kind)
     H5G_info_t root = {};
     hdf5::check(H5Gget_info(file, &root));
     constexpr std::size_t others = 3; // time, events, run
-    return has("run") && (kind != FileKind::history ||
-                          (has("events") && root.nlinks <= std::size(quantities) + others));
+    const std::size_t of_slip = has("mode") ? std::size(quantities_of_slip) + 1 : 0;
+    const std::size_t most = std::size(quantities) + of_slip + others;
+    return has("run") && (kind != FileKind::history || (has("events") && root.nlinks <= most));
 }
 
 } // namespace
@@ -238,10 +261,18 @@ void write_history_file(const std::string& path, const Job& job, const History& 
         add_outcome(file, job, history);
         const Scene& scene = job.problem.scene;
         add_quantity(file, scene, time_of_sample.name, time_of_sample, history.samples);
-        for (const SampleQuantity& quantity : quantities) {
+        for (const SampleQuantity& quantity : quantities_of(job)) {
             add_quantity(file, scene, quantity.name, quantity, history.samples);
         }
-        add_events(file, scene, history.events);
+        if (job.problem.grid.may_slip()) {
+            const auto code_of = [](const HistorySample& at) { return std::uint8_t(at.mode); };
+            add_variable(file, {.name = "mode",
+                                .dimensions = {{"time", std::int64_t(history.samples.size())}},
+                                .values = mapped(history.samples, code_of),
+                                .long_name = "mode of the motion",
+                                .code_names = sliding_mode_names});
+        }
+        add_events(file, job, history.events);
     });
 }
 

@@ -92,7 +92,7 @@ void write_field_attributes(hid_t dataset, Field field, const Problem& problem,
         write_attribute(dataset, "_FillValue", std::numeric_limits<double>::quiet_NaN());
     }
     if (field == Field::flip_amplitude) {
-        const FlipSearch search = flip_search(scene, problem.grid.find("friction") != nullptr);
+        const FlipSearch search = flip_search(scene, problem.grid.may_slip());
         write_attribute(dataset, "width", search.flip_width);
         write_attribute(dataset, "finest_step", search.finest_step);
     }

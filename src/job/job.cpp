@@ -135,8 +135,8 @@ void expect_computable(const Entry& job, const Problem& problem)
                largest_rk45_tolerance_with_error);
     }
     for (const Field field : problem.fields) {
-        if (const std::string reason = reason_not_to_compute(
-                field, problem.scene, problem.grid.find("friction") != nullptr);
+        if (const std::string reason =
+                reason_not_to_compute(field, problem.scene, problem.grid.may_slip());
             !reason.empty()) {
             refuse(key("output", "fields"), " contains \"{}\", but {}. Remove it, or change that.",
                    name_of(field), reason);

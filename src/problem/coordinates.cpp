@@ -92,6 +92,12 @@ double lifting_pga(const Scene& scene, const Point& point)
     return pga_at({threshold(block, plus), threshold(block.other, plus.turned())}, scene, point);
 }
 
+bool stays_flat(const Point& point)
+{
+    const auto plus = sliding_side(point.block, point.gyration, point.friction);
+    return point.friction <= std::min(plus.friction_to_lift(), plus.turned().friction_to_lift());
+}
+
 double moving_pga(const Scene& scene, const Point& point)
 {
     const auto plus = sliding_side(point.block, point.gyration, point.friction);
@@ -292,7 +298,7 @@ std::vector<Point> Coordinates::points() const
          has_two_sides ? Numbers(of_two_sided_point) : Numbers(of_symmetric_point)) {
         fill(number.coordinate, [&](Point& point, double value) { number.of(point) = value; });
     }
-    if (grid_.find("friction") != nullptr) {
+    if (grid_.may_slip()) {
         fill("friction", [](Point& point, double value) { point.friction = value; });
     }
     fill("restitution", [](Point& point, double r) { point.block.restitution = r; });

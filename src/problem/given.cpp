@@ -214,7 +214,7 @@ void expect_limits(const Coordinates& coordinates, const Grid& corners)
          {"restitution_of_maximum", "restitution"},
          "With friction, the restitution is at most r_max, that of an impact on a corner that does "
          "not slip. Give at most r_max, or remove friction.",
-         corners.find("friction") != nullptr},
+         corners.may_slip()},
         {"friction_over_incline",
          {"(1, inf]", [](double ratio) { return ratio > 1; }},
          {"friction", "incline"},
@@ -309,7 +309,7 @@ void expect_valid(const Scene& scene, const Grid& grid)
     expect_limits(coordinates, corners);
     expect_metres(scene, coordinates, corners);
     expect_gravity(scene, corners);
-    if (grid.find("friction") != nullptr && !has_contact_forces(scene.theory)) {
+    if (grid.may_slip() && !has_contact_forces(scene.theory)) {
         refuse("friction",
                fmt::format(" is not possible: the {} theory has no forces of the contact. "
                            "Remove it, or use theory = \"nonlinear\".",

@@ -222,7 +222,7 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
     }
     judge(gyration, "gyration_over_size");
     judge(friction, "friction");
-    if (grid.find("friction") != nullptr && scene.has_two_components()) {
+    if (grid.may_slip() && scene.has_two_components()) {
         findings.emplace_back(
             "the slip is computed in the plane of the direction only, without the "
             "motion across it");

@@ -151,7 +151,7 @@ std::string reason_not_to_compute(Field field, const Scene& scene, bool has_fric
 
 std::string reason_not_to_fill(const Problem& problem)
 {
-    if (problem.grid.find("friction") != nullptr) {
+    if (problem.grid.may_slip()) {
         return "where blocks slip, regions have other boundaries";
     }
     if (problem.scene.motion_traits().is_sensitive) {

@@ -1,6 +1,8 @@
 #include "overturn/sweep/history.hpp"
 
 #include "point_run.hpp"
+#include "sliding_history.hpp"
+#include "timeline.hpp"
 
 #include "overturn/integrate/forced_stage.hpp"
 #include "overturn/mechanics/contact.hpp"
@@ -78,8 +80,7 @@ private:
     RockingSeries<path_order, double> series_;
 };
 
-/// Records the state of a block up to the last time shown: at evenly spaced times, and before and
-/// after each event.
+/// Records the motion of a block that does not slip.
 template <Theory theory, class Excitation>
 class HistoryBuilder {
 public:
@@ -87,28 +88,37 @@ public:
         : block_(point.block), sides_(block_, point.gyration), excitation_(excitation),
           path_(forced_path<theory>(block_, excitation_)),
           block_at_end_(seen_from(path_.end.state.side, block_)), end_of_path_(end_of_path()),
-          samples_(view.samples)
-    {
-        history_.end_of_pulse = time_at(excitation_.motion.end);
-        history_.time_of_rest = time_of_rest();
-        history_.time_of_fall = time_of_fall();
-        until_ = std::isnan(view.until) ? time_worth_showing() : view.until;
-    }
+          history_(outline()),
+          timeline_(history_,
+                    std::isnan(view.until) ? time_worth_showing(history_, end_of_path_)
+                                           : view.until,
+                    view.samples)
+    {}
 
     History build()
     {
-        history_.region = region_of<theory>(path_.end, block_at_end_);
-        history_.margin = margin_of<theory>(path_.end, block_at_end_);
-        history_.error = path_.end.error;
-        history_.shortened = path_.end.is_stopped();
         record_forced_stage();
-        if (is_free() && !is_over(end_of_path_)) {
+        if (is_free() && !timeline_.is_over(end_of_path_)) {
             history_.shortened = !record_free_stage();
         }
         return std::move(history_);
     }
 
 private:
+    /// All but the samples and events.
+    History outline() const
+    {
+        History history{};
+        history.end_of_pulse = time_at(excitation_.motion.end);
+        history.time_of_rest = time_of_rest();
+        history.time_of_fall = time_of_fall();
+        history.region = region_of<theory>(path_.end, block_at_end_);
+        history.margin = margin_of<theory>(path_.end, block_at_end_);
+        history.error = path_.end.error;
+        history.shortened = path_.end.is_stopped();
+        return history;
+    }
+
     // Times are in 1/p of the side plus; those of FreeRocking and of the frequency are in the unit
     // of 1 / Block::frequency_parameter.
     double time_at(double phase) const
@@ -154,15 +164,6 @@ private:
             time_to_lie_flat<theory, MoreExact<double>>(path_.end.state, block_at_end_));
     }
 
-    double time_worth_showing() const
-    {
-        if (std::isnan(history_.time_of_rest)) {
-            return end_of_path_;
-        }
-        return std::min({history_.time_of_fall, std::max(history_.time_of_rest, end_of_path_),
-                         end_of_path_ + free_time_shown});
-    }
-
     /// ground: of the excitation, or 0.0 after it.
     template <class Ground>
     HistorySample sample(double time, const State<double>& state, const Ground& ground) const
@@ -172,14 +173,16 @@ private:
         const Ground push = state.side * ground;
         const double pull = Equations<theory>::acceleration(seen, state.tilt, push);
         const MovingBlock<double, Ground> moving{state.tilt, state.rate, push, push};
-        return {.time = time,
-                .angle = state.side * state.tilt + 0.0, // no -0
-                .velocity = state.side * state.rate * ratio + 0.0,
-                .acceleration = state.side * pull * (ratio * ratio),
-                .q = double(conserved_q<theory>(state, seen)),
-                .ground = horizontal_of(ground),
-                .friction_demand = friction_of(
-                    force_while_rocking(sides_.seen_from(state.side), seen.slenderness, moving))};
+        HistorySample result{.time = time,
+                             .angle = state.side * state.tilt + 0.0, // no -0
+                             .velocity = state.side * state.rate * ratio + 0.0,
+                             .acceleration = state.side * pull * (ratio * ratio),
+                             .q = double(conserved_q<theory>(state, seen)),
+                             .ground = horizontal_of(ground),
+                             .friction_demand = unknown};
+        press(result, SlidingMode::rock, state.side,
+              force_while_rocking(sides_.seen_from(state.side), seen.slenderness, moving));
+        return result;
     }
 
     template <class Ground>
@@ -187,41 +190,25 @@ private:
     {
         HistorySample result = sample(time, {0, 0, 1}, ground);
         result.acceleration = 0;
-        result.friction_demand = friction_of(force_at_rest(sides_.plus, ground, ground));
+        rest_under(ground, result);
         return result;
     }
 
-    static double friction_of(const ContactForce<double>& force)
+    template <class Ground>
+    void rest_under(const Ground& ground, HistorySample& result) const
     {
-        return Equations<theory>::has_contact_forces ? force.friction() : unknown;
+        press(result, SlidingMode::rest, 1, force_at_rest(sides_.plus, ground, ground));
     }
 
-    bool is_over(double time) const { return time > until_; }
-
-    /// Records the motion until `end`; at(time) returns a sample.
-    template <class At>
-    void follow(double end, const At& at)
+    /// force: as seen from this side.
+    static void press(HistorySample& result, SlidingMode mode, double side,
+                      const ContactForce<double>& force)
     {
-        for (; next_ < samples_; ++next_) {
-            const double time = until_ * next_ / std::max(1, samples_ - 1);
-            if (time >= end) {
-                break;
-            }
-            history_.samples.push_back(at(time));
-        }
-        if (end < infinity) {
-            last_ = at(end);
-        }
-    }
-
-    /// Records an event at the last time passed to follow().
-    void record_event(EventKind event, const HistorySample& after)
-    {
-        if (!is_over(last_.time)) {
-            history_.samples.push_back(last_);
-            history_.samples.push_back(after);
-            history_.events.push_back({event, last_, after});
-        }
+        const bool is_known = Equations<theory>::has_contact_forces;
+        result.mode = mode;
+        result.friction_demand = is_known ? force.friction() : unknown;
+        result.force_along = is_known ? side * force.along : unknown;
+        result.force_normal = is_known ? force.normal : unknown;
     }
 
     void record_forced_stage()
@@ -235,10 +222,10 @@ private:
         for (const Event<double>& event : path_.events) {
             const double time = time_at(event.rocking.phase);
             const bool is_at_onset = event.rocking.phase == excitation_.motion.begin;
-            follow(time, [&](double before) {
+            timeline_.follow(time, [&](double before) {
                 HistorySample last = at(before);
                 if (is_at_onset) { // the block does not rest under a jump that lifts it
-                    last.friction_demand = resting(before, 0.0).friction_demand;
+                    rest_under(0.0, last);
                 }
                 return last;
             });
@@ -247,16 +234,16 @@ private:
                 motion.emplace(event, block_, excitation_);
             }
             if (event.kind != EventKind::step) {
-                record_event(event.kind, at(time));
+                timeline_.record_event(event.kind, at(time));
             }
         }
-        follow(end_of_path_, at);
+        timeline_.follow(end_of_path_, at);
         if (path_.end.fell) {
-            record_event(EventKind::fall, last_);
+            timeline_.record_event(EventKind::fall, timeline_.last());
         } else if (is_free()) {
-            record_event(EventKind::end_of_pulse, motion
-                                                      ? sample(end_of_path_, path_.end.state, 0.0)
-                                                      : resting(end_of_path_, 0.0));
+            timeline_.record_event(EventKind::end_of_pulse,
+                                   motion ? sample(end_of_path_, path_.end.state, 0.0)
+                                          : resting(end_of_path_, 0.0));
         }
     }
 
@@ -265,7 +252,7 @@ private:
     {
         FreeRocking<theory, double> rocking(path_.end.state, block_at_end_);
         // The remainder of a series that is shorter than this is not visible.
-        const double last_impact = history_.time_of_rest - 1e-3 * (until_ / samples_);
+        const double last_impact = history_.time_of_rest - 1e-3 * timeline_.spacing();
         while (after_path(rocking.begin()) < last_impact) {
             if (rocking.impacts() == most_impacts_shown) {
                 return false;
@@ -278,23 +265,23 @@ private:
                 const double since = (time - end_of_path_) / block_.frequency_parameter;
                 return sample(time, time == impact ? striking : rocking.at(since), 0.0);
             };
-            follow(std::min(impact, fall), at);
-            if (is_over(std::min(impact, fall))) {
+            timeline_.follow(std::min(impact, fall), at);
+            if (timeline_.is_over(std::min(impact, fall))) {
                 return true;
             }
             if (fall < impact) {
-                record_event(EventKind::fall, last_);
+                timeline_.record_event(EventKind::fall, timeline_.last());
                 return true;
             }
             rocking.strike();
-            record_event(EventKind::impact, sample(impact, arc.at(0), 0.0));
+            timeline_.record_event(EventKind::impact, sample(impact, arc.at(0), 0.0));
         }
         const auto at_rest = [&](double time) { return resting(time, 0.0); };
         if (history_.time_of_rest > end_of_path_) {
-            follow(history_.time_of_rest, at_rest);
-            record_event(EventKind::rest, last_);
+            timeline_.follow(history_.time_of_rest, at_rest);
+            timeline_.record_event(EventKind::rest, timeline_.last());
         }
-        follow(infinity, at_rest);
+        timeline_.follow(infinity, at_rest);
         return true;
     }
 
@@ -304,35 +291,41 @@ private:
     ForcedPath path_;
     Block<double> block_at_end_; // as seen from the side on which it rocks at the end of the path
     double end_of_path_;         // time [1/p]
-    double until_;
-    int samples_;
-    int next_ = 0;         // sample
-    HistorySample last_{}; // at the end of follow()
-    History history_{};
+    History history_;
+    Timeline timeline_;
 };
+
+/// The history of a block that does not slip.
+History history_without_slip(const Scene& scene, const Point& point, const HistoryView& view)
+{
+    return with_theory(scene.theory, [&]<Theory theory>() {
+        return under_motion<theory>(scene, point, [&](const auto& excitation) {
+            return HistoryBuilder<theory, std::remove_cvref_t<decltype(excitation)>>(
+                       point, excitation, view)
+                .build();
+        });
+    });
+}
 
 } // namespace
 
 History history_of(const Scene& scene, const Point& point, const HistoryView& view)
 {
-    History history = with_theory(scene.theory, [&]<Theory theory>() {
-        const auto build = [&](const auto& excitation) {
-            return HistoryBuilder<theory, std::remove_cvref_t<decltype(excitation)>>(
-                       point, excitation, view)
-                .build();
-        };
-        if (const Pulse* pulse = scene.pulse()) {
-            return build(pulse_excitation<theory>(pulse_motion<double>(pulse->kind, pulse->shape),
-                                                  point.block, point.amplitude, point.frequency));
+    const PointRun run(scene, {point}, widest_kernel());
+    const auto settled = [&](const Outputs& outputs) {
+        return outcomes_of(run, most_accurate, outputs)[0];
+    };
+    if (run.has_friction()) {
+        const Outcome outcome =
+            settled({.error = true, .region = true, .margin = true, .slide = true});
+        if (outcome.has(status::slipped | status::jammed)) {
+            return sliding_history(scene, point, outcome, view);
         }
-        const Record record = directed_record(scene, point);
-        return build(
-            record_excitation<theory>(*record, point.block, point.amplitude, point.frequency));
-    });
+    }
+    History history = history_without_slip(scene, point, view);
     history.is_curve_certain = history.error < std::abs(history.margin);
     if (!history.is_curve_certain) {
-        const PointRun run(scene, {point}, widest_kernel());
-        history.region = outcomes_of(run, most_accurate, {.region = true})[0].region;
+        history.region = settled({.region = true}).region;
         history.margin = unknown;
         history.error = infinity;
         history.time_of_rest = unknown;

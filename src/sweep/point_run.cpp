@@ -166,21 +166,13 @@ bool PointRun::has_friction() const
     return !points_.empty() && std::isfinite(points_.front().friction);
 }
 
-bool PointRun::stays_flat(int point) const
+bool PointRun::differ_in_frequency_alone(int one, int other) const
 {
-    const Point& at = this->point(point);
-    const auto side = sliding_side(at.block, at.gyration, at.friction);
-    return at.friction <= std::min(side.friction_to_lift(), side.turned().friction_to_lift());
-}
-
-template <class T>
-SlidingEnd<T> PointRun::slide(int point, double tolerance, Follow follow) const
-{
-    const Point& at = this->point(point);
-    return with_excitation<T, Theory::nonlinear>(point, [&](const auto& excitation) {
-        return run_sliding<T>(block_in<T>(at.block), T(at.gyration), T(at.friction), excitation,
-                              T(tolerance), follow);
-    });
+    const Point& first = point(one);
+    const Point& second = point(other);
+    return record_of(one) == record_of(other) && first.amplitude == second.amplitude &&
+           first.friction == second.friction && first.gyration == second.gyration &&
+           side_of(first.block) == side_of(second.block) && first.block.other == second.block.other;
 }
 
 namespace {
@@ -216,13 +208,45 @@ Outcome outcome_of(const SlidingEnd<double>& end, const Block<double>& given, Ou
 
 } // namespace
 
+PointRun::Slip PointRun::slip_of(int point, double frequency, const Numerics& numerics,
+                                 const Outputs& outputs) const
+{
+    const Point& at = this->point(point);
+    const Follow follow = outputs.peak || outputs.phase || outputs.slide ? Follow::until_stuck
+                                                                         : Follow::until_decided;
+    const auto run = [&]<class T>(T tolerance) {
+        return with_excitation<T, Theory::nonlinear>(point, [&](auto excitation) {
+            excitation.frequency = T(frequency);
+            return run_sliding<T>(block_in<T>(at.block), T(at.gyration), T(at.friction), excitation,
+                                  tolerance, follow);
+        });
+    };
+    throw_if_dropped();
+    Slip slip{.end =
+                  run(numerics.resolve ? tolerances_to_confirm[0]
+                                       : std::min(numerics.tolerance, loosest_sliding_tolerance))};
+    if (numerics.resolve || outputs.error) {
+        // The error is the difference from a run with a much smaller tolerance.
+        const SlidingEnd<double> better = run(tolerances_to_confirm[1]);
+        slip.is_settled = better.region == slip.end.region;
+        const auto margin_of = [&](const SlidingEnd<double>& end) {
+            return outcome_of(end, at.block, {}).margin;
+        };
+        slip.error = slip.is_settled
+                         ? 2 * std::abs(margin_of(better) - margin_of(slip.end)) + 0x1p-50
+                         : infinity;
+    }
+    if (numerics.resolve) {
+        const auto most_exact = static_cast<long double>(tolerances_to_confirm[2]);
+        slip.is_settled = slip.is_settled && run(most_exact).region == slip.end.region;
+    }
+    return slip;
+}
+
 void PointRun::let_slip(const Numerics& numerics, const Outputs& outputs, Outcomes& outcomes) const
 {
-    const double tolerance = numerics.resolve
-                                 ? tolerances_to_confirm[0]
-                                 : std::min(numerics.tolerance, loosest_sliding_tolerance);
-    const Follow follow =
-        outputs.peak || outputs.phase || outputs.slide ? Follow::until_rest : Follow::until_decided;
+    Slip slip;
+    int point_of_slip = -1; // if it stays flat
     for (int i = 0; i < size(); ++i) {
         Outcome& outcome = outcomes[i];
         const Point& at = point(i);
@@ -230,25 +254,28 @@ void PointRun::let_slip(const Numerics& numerics, const Outputs& outputs, Outcom
         if (outcome.has(status::free_fall) || outcome.to_stick <= at.friction) {
             continue;
         }
-        throw_if_dropped();
-        const auto end = slide<double>(i, tolerance, follow);
-        outcome = outcome_of(end, at.block, outcome);
-        if (!numerics.resolve && !outputs.error) {
-            continue;
-        }
-        // The error is the difference from a run with a much smaller tolerance.
-        const auto better = slide<double>(i, tolerances_to_confirm[1], follow);
-        bool agree = better.region == end.region;
-        if (outputs.error && std::isfinite(outcome.margin)) {
-            const double margin = outcome_of(better, at.block, outcome).margin;
-            outcome.error = agree ? 2 * std::abs(margin - outcome.margin) + 0x1p-50 : infinity;
-        }
-        if (numerics.resolve) {
-            agree = agree &&
-                    slide<long double>(i, tolerances_to_confirm[2], follow).region == end.region;
-            if (!agree) {
-                give_up(outcome);
+        // A block that stays flat has no time of its own: its slide is in proportion to the square
+        // of that of the ground motion, on which nothing else depends.
+        double per_slide = 1;
+        if (!stays_flat(at)) {
+            slip = slip_of(i, at.frequency, numerics, outputs);
+            point_of_slip = -1;
+        } else {
+            const double frequency = at.block.frequency_parameter;
+            if (point_of_slip < 0 || !differ_in_frequency_alone(point_of_slip, i)) {
+                slip = slip_of(i, frequency, numerics, outputs);
+                point_of_slip = i;
             }
+            per_slide = (frequency / at.frequency) * (frequency / at.frequency);
+        }
+        outcome = outcome_of(slip.end, at.block, outcome);
+        outcome.slide *= per_slide;
+        outcome.slide_peak *= per_slide;
+        if (outputs.error && std::isfinite(outcome.margin)) {
+            outcome.error = slip.error;
+        }
+        if (numerics.resolve && !slip.is_settled) {
+            give_up(outcome);
         }
     }
 }
@@ -492,7 +519,7 @@ Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Out
     if (points.has_friction() && !outputs.contact) {
         std::erase_if(chosen, [&](int point) {
             outcomes[point] = at_rest;
-            return points.stays_flat(point);
+            return stays_flat(points.point(point));
         });
     }
     points.run(numerics.resolve && stores_peaks ? most_accurate : numerics, outcomes, chosen,

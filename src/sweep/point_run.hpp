@@ -87,9 +87,6 @@ public:
     /// Whether blocks have a friction coefficient, and may slip.
     bool has_friction() const;
 
-    /// Whether the block of a point slides before it could lift, so that it never rocks.
-    bool stays_flat(int point) const;
-
     /// Replaces the outcomes of the blocks that slip; those of the others, with the friction that
     /// they need to stick, are known.
     void let_slip(const Numerics& numerics, const Outputs& outputs, Outcomes& outcomes) const;
@@ -113,8 +110,18 @@ public:
 private:
     void throw_if_dropped() const;
 
-    template <class T>
-    SlidingEnd<T> slide(int point, double tolerance, Follow follow) const;
+    /// How the motion of a point that slips ended.
+    struct Slip {
+        SlidingEnd<double> end;
+        double error = 0;       ///< of the margin, if it is asked for
+        bool is_settled = true; ///< if verdicts are resolved: all runs have the region
+    };
+    /// frequency: instead of that of the point.
+    Slip slip_of(int point, double frequency, const Numerics& numerics,
+                 const Outputs& outputs) const;
+
+    /// Whether two points have all but the frequency and the restitution in common.
+    bool differ_in_frequency_alone(int one, int other) const;
 
     void run_by(Integrator integrator, double tolerance, Outcomes& outcomes,
                 const std::vector<int>& chosen, UncertainImpact uncertain_impact) const;

@@ -23,8 +23,7 @@ std::vector<double> friction_to_topple(const Problem& of_one_point, const Verdic
 {
     const Scene& scene = of_one_point.scene;
     const auto toppling = ranges.with(Verdict::topples);
-    if (toppling.empty() || !has_contact_forces(scene.theory) ||
-        of_one_point.grid.find("friction") != nullptr) {
+    if (toppling.empty() || !has_contact_forces(scene.theory) || of_one_point.grid.may_slip()) {
         return {};
     }
     // At the end itself, whether the block topples, and with it the friction, may be unknown.
@@ -186,10 +185,8 @@ std::optional<SlipAnswer> slip_of(const Problem& problem, const Point& point,
     if (!std::isfinite(point.friction)) {
         return std::nullopt;
     }
-    const auto side = sliding_side(point.block, point.gyration, point.friction);
     SlipAnswer slip{.friction = point.friction,
-                    .stays_flat = point.friction <= std::min(side.friction_to_lift(),
-                                                             side.turned().friction_to_lift()),
+                    .stays_flat = overturn::stays_flat(point),
                     .moving_pga = moving_pga(problem.scene, point),
                     .without = {}};
     if (question.has_strength) {

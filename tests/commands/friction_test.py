@@ -157,6 +157,39 @@ class Friction(Scratch):
         self.assertAlmostEqual(flat["slip"]["slide_over_size"] * math.hypot(0.3, 0.9), -0.0201010964, places=9)
         self.assertEqual(flat["toppling_pga"], [])
 
+    def test_has_a_history(self):
+        one = {"friction": "0.2", "motion": "pulse_period = 0.5\npga = 0.6", "fields": ["region"]}
+        self.write(**one)
+        shown = self.overturn("history", "job.toml", "-o", "h.h5")
+        self.assert_exit(shown, 0)
+        self.assertIn("slides 20.1 mm, at most 88.3 mm away", shown.stdout)
+        with h5py.File(self.folder / "h.h5") as file:
+            self.assertEqual(file["mode"].attrs["flag_meanings"], b"rest slide rock slide_rock")
+            self.assertEqual(set(file["mode"][()]), {0, 1})
+            slide = file["slide"][()] * math.hypot(0.3, 0.9)
+            self.assertAlmostEqual(slide[-1], -0.0201010964, places=9)
+            self.assertAlmostEqual(abs(slide).max(), 0.0883227284, places=5)
+            slips = file["mode"][()] == 1
+            np.testing.assert_allclose(abs(file["force_along"][()][slips]), 0.2, rtol=1e-12)
+            np.testing.assert_allclose(file["force_normal"][()], 1, rtol=1e-14)
+            kinds = file["events/kind"][()].tolist()
+            self.assertEqual(kinds[0], 5)  # slip
+            self.assertIn(2, kinds)  # rest
+        self.assert_exit(self.overturn("history", "job.toml", "-o", "h.h5"), 0)  # replaces it
+        (self.folder / "job.toml").write_text((self.folder / "job.toml").read_text().replace("friction = 0.2\n", ""))
+        self.assert_exit(self.overturn("history", "job.toml", "-o", "plain.h5"), 0)
+        with h5py.File(self.folder / "plain.h5") as file:
+            self.assertNotIn("mode", file)
+
+    def test_is_told_by_check(self):
+        for friction, words in (("0.2", "slides from 0.2 g, does not rock"),
+                                ("0.4", "lifts from 0.3333 g before it slides"),
+                                ("{ values = [0.2, 0.25, 0.4] }", "slides from 0.2 g, does not rock; or lifts from 0.333")):
+            self.write(friction=friction, fields=["region"])
+            shown = self.overturn("check", "job.toml")
+            self.assert_exit(shown, 0)
+            self.assertIn(words, shown.stdout)
+
     def test_is_refused_where_it_makes_no_sense(self):
         plain = {"fields": ["region"]}
         self.refused("run", "linear theory has no forces of the contact", scene='pulse = "one_sine"\ntheory = "linear"',
@@ -166,7 +199,6 @@ class Friction(Scratch):
         self.refused("run", "fill = true is not possible: where blocks slip", numerics="fill = true", **plain)
         self.refused("run", "is outside (0, 10]", friction="-0.1", **plain)
         self.refused("accuracy", "that of a block that does not slip", **plain)
-        self.refused("history", "that of a block that does not slip", motion="pulse_period = 0.5\npga = 1", **plain)
         self.write(friction="0.4")
         text = (self.folder / "job.toml").read_text()
         (self.folder / "job.toml").write_text(text.replace("friction = 0.4\n", ""))

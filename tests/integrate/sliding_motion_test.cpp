@@ -145,6 +145,7 @@ TEST(SlidingMotion, BeginsInTheModeOfShentonsMap)
             SlidingMotion<double, PulseExcitation<double>> motion(
                 box.block(), Box::gyration, friction, box.pulse(PulseKind::rectangular, 1, A),
                 1e-12);
+            motion.advance(); // from rest
             const SlidingMode expected = mode_at_onset(A, friction, 0.3, 0.9);
             EXPECT_EQ(motion.mode(), expected) << A << ", " << friction;
             ++found[std::size_t(expected)];

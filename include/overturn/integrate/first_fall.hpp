@@ -20,6 +20,52 @@ S polynomial_at(const std::array<S, count>& c, const S& t)
     return sum;
 }
 
+/// 1 / (k + 1).
+template <Number S, std::size_t count>
+inline constexpr std::array<S, count> shares = [] {
+    std::array<S, count> all{};
+    for (std::size_t k = 0; k < count; ++k) {
+        all[k] = S(1) / S(int(k) + 1);
+    }
+    return all;
+}();
+
+/// 1 / (degree over k).
+template <Number S, std::size_t count>
+inline constexpr std::array<S, count> per_choices = [] {
+    std::array<S, count> all{};
+    S choices(1);
+    for (std::size_t k = 0; k < count; ++k) {
+        all[k] = 1 / choices;
+        choices = choices * S(int(count - 1 - k)) / S(int(k) + 1);
+    }
+    return all;
+}();
+
+/// Its integral from 0 to t.
+template <Number S, std::size_t count>
+    requires(lanes_v<S> == 1)
+S integral_of(const std::array<S, count>& c, const S& t)
+{
+    S sum(0);
+    for (std::size_t k = count - 1; k-- > 0;) {
+        sum = fma(sum, t, c[k] * shares<S, count>[k]);
+    }
+    return sum * t;
+}
+
+/// Its derivative at t.
+template <Number S, std::size_t count>
+    requires(lanes_v<S> == 1)
+S derivative_of(const std::array<S, count>& c, const S& t)
+{
+    S sum(0);
+    for (std::size_t k = count - 1; k > 0; --k) {
+        sum = fma(sum, t, S(int(k)) * c[k]);
+    }
+    return sum;
+}
+
 /// Its Bernstein coefficients on [0, h].
 template <Number S, std::size_t count>
     requires(lanes_v<S> == 1)
@@ -27,26 +73,26 @@ std::array<S, count> bernstein_of(const std::array<S, count>& c, const S& h)
 {
     std::array<S, count> b;
     S power(1);
-    S choices(1); // degree over k
     for (std::size_t k = 0; k < count; ++k) {
-        b[k] = c[k] * power / choices;
+        b[k] = c[k] * power * per_choices<S, count>[k];
         power = power * h;
-        choices = choices * S(int(count - 1 - k)) / S(int(k) + 1);
     }
-    for (std::size_t level = 1; level < count; ++level) {
-        for (std::size_t k = count - 1; k >= level; --k) {
+    unrolled<int(count) - 1>([&]<int level>() {
+        unrolled<int(count) - 1 - level>([&]<int i>() {
+            constexpr std::size_t k = count - 1 - i;
             b[k] = b[k] + b[k - 1];
-        }
-    }
+        });
+    });
     return b;
 }
 
-/// The root of c between two times, at which it is positive, but for noise, and negative.
+/// The root of c between two times, at which it is positive, but for noise, and negative. guess: in
+/// between.
 template <Number S, std::size_t count>
     requires(lanes_v<S> == 1)
-S root_of_polynomial(const std::array<S, count>& c, S low, S high)
+S root_of_polynomial(const std::array<S, count>& c, S low, S high, const S& guess)
 {
-    S t = (low + high) * S(0.5);
+    S t = guess;
     for (int i = 0; i < 100 && high - low > std::numeric_limits<S>::epsilon() * high; ++i) {
         S value = c[count - 1];
         S slope(0);
@@ -100,7 +146,9 @@ S first_fall(const std::array<S, count>& c, const S& h, const S& noise)
             return h * left;
         }
         if (is_low(b[count - 1]) && (changes == 1 || is_narrow)) {
-            return root_of_polynomial(c, S(h * left), S(h * (left + width)));
+            const S chord = b[0] > 0 ? S(b[0] / (b[0] - b[count - 1])) : S(0.5);
+            return root_of_polynomial(c, S(h * left), S(h * (left + width)),
+                                      S(h * (left + width * chord)));
         }
         if (is_narrow) {
             return none;

@@ -106,6 +106,17 @@ ContactForce<T> force_of_sticking(const SlidingSide<T>& side, const OnCorner<T>&
             -turning * at.x - square * at.y - field.normal};
 }
 
+/// The same of a corner that slips outward (direction +1) or inward (-1).
+template <Number T>
+ContactForce<T> force_of_slipping(const SlidingSide<T>& side, const OnCorner<T>& at, const T& rate,
+                                  const T& direction, const Field2<T>& field)
+{
+    const T pull = side.friction * direction;
+    const T yield = 1 + at.x * (at.x + pull * at.y) / side.gyration;
+    const T normal = (-field.normal - rate * rate * at.y) / yield;
+    return {-pull * normal, normal};
+}
+
 /// A state just after an impact on C.
 template <Number T>
 struct AfterImpact {

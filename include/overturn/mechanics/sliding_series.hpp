@@ -20,13 +20,11 @@ struct SlidingSeries {
 };
 
 /// The k-th coefficient of the product of two series, of which all up to k are known.
-template <Number T>
-T product_term(const auto& a, const auto& b, std::size_t k)
+template <int k, Number T>
+T product_term(const auto& a, const auto& b)
 {
-    T sum = a[0] * b[k];
-    for (std::size_t j = 1; j <= k; ++j) {
-        sum = fma(a[j], b[k - j], sum);
-    }
+    T sum(0);
+    newest_last<k + 1>([&]<int j>() { sum = fma(a[j], b[k - j], sum); });
     return sum;
 }
 
@@ -38,6 +36,31 @@ struct SlidingState {
     T slip; ///< length per unit of time
 };
 
+/// The first coefficients, in which all others are zero.
+template <int order, Number T>
+SlidingSeries<order, T> first_coefficients(const SlidingSide<T>& side, const SlidingState<T>& state)
+{
+    const OnCorner<T> at = on_corner(side, state.tilt);
+    SlidingSeries<order, T> c{};
+    c.tilt[0] = state.tilt;
+    c.rate[0] = state.rate;
+    c.x[0] = at.x;
+    c.y[0] = at.y;
+    c.slip[0] = state.slip;
+    c.yield[0] = T(1);
+    return c;
+}
+
+/// Computes the next coefficients of the tilt and of where G is.
+template <int k, int order, Number T>
+void turn(SlidingSeries<order, T>& c)
+{
+    const T share(scalar_t<T>(1) / (k + 1));
+    c.tilt[k + 1] = c.rate[k] * share;
+    c.x[k + 1] = product_term<k, T>(c.rate, c.y) * share;
+    c.y[k + 1] = -product_term<k, T>(c.rate, c.x) * share;
+}
+
 /// The series of a corner that sticks. field: its series, in lengths per unit of time squared.
 ///
 ///     (k^2 + R^2) rate' = y g1 - x g2,   F = x'' - g1,   N = y'' - g2
@@ -46,30 +69,20 @@ SlidingSeries<order, T> series_of_sticking(const SlidingSide<T>& side, const Sli
                                            const Field2<Coefficients<order + 1, T>>& field)
 {
     using S = scalar_t<T>;
-    SlidingSeries<order, T> c;
-    const OnCorner<T> at = on_corner(side, state.tilt);
-    c.tilt[0] = state.tilt;
-    c.rate[0] = state.rate;
-    c.x[0] = at.x;
-    c.y[0] = at.y;
-    c.slip.fill(T(0));
-    c.yield.fill(T(0));
-    c.yield[0] = T(1);
+    SlidingSeries<order, T> c =
+        first_coefficients<order>(side, SlidingState<T>{state.tilt, state.rate, T(0)});
     const T mobility = 1 / side.inertia();
-    for (std::size_t k = 0; k < std::size_t(order); ++k) {
-        const T share(S(1) / S(int(k) + 1));
+    unrolled<order>([&]<int k>() {
         const T moment =
-            product_term<T>(c.y, field.along, k) - product_term<T>(c.x, field.normal, k);
-        c.tilt[k + 1] = c.rate[k] * share;
-        c.x[k + 1] = product_term<T>(c.rate, c.y, k) * share;
-        c.y[k + 1] = -product_term<T>(c.rate, c.x, k) * share;
-        c.rate[k + 1] = moment * mobility * share;
-    }
-    for (std::size_t k = 0; k + 2 <= std::size_t(order); ++k) {
-        const T factor(S(int(k) + 1) * S(int(k) + 2));
+            product_term<k, T>(c.y, field.along) - product_term<k, T>(c.x, field.normal);
+        turn<k>(c);
+        c.rate[k + 1] = moment * (mobility * T(S(1) / (k + 1)));
+    });
+    unrolled<order - 1>([&]<int k>() {
+        const T factor(S(k + 1) * S(k + 2));
         c.along[k] = fma(factor, c.x[k + 2], -field.along[k]);
         c.normal[k] = fma(factor, c.y[k + 2], -field.normal[k]);
-    }
+    });
     return c;
 }
 
@@ -83,50 +96,40 @@ SlidingSeries<order, T> series_of_slipping(const SlidingSide<T>& side, const Sli
                                            const Field2<Coefficients<order + 1, T>>& field)
 {
     using S = scalar_t<T>;
-    SlidingSeries<order, T> c;
-    const OnCorner<T> at = on_corner(side, state.tilt);
-    c.tilt[0] = state.tilt;
-    c.rate[0] = state.rate;
-    c.x[0] = at.x;
-    c.y[0] = at.y;
-    c.slip[0] = state.slip;
+    SlidingSeries<order, T> c = first_coefficients<order>(side, state);
     const T pull = side.friction * direction;
     const T per_gyration = 1 / side.gyration;
     Coefficients<order, T> lever;  // m
     Coefficients<order, T> square; // of the rate
     Coefficients<order, T> normal; // N
     T yielding(0);                 // 1 / D[0]
-    for (std::size_t k = 0; k < std::size_t(order); ++k) {
-        const T share(S(1) / S(int(k) + 1));
+    unrolled<order>([&]<int k>() {
         lever[k] = fma(pull, c.y[k], c.x[k]);
-        square[k] = product_term<T>(c.rate, c.rate, k);
-        c.yield[k] = product_term<T>(c.x, lever, k) * per_gyration;
-        if (k == 0) {
-            c.yield[0] = 1 + c.yield[0];
+        square[k] = product_term<k, T>(c.rate, c.rate);
+        c.yield[k] = fma(product_term<k, T>(c.x, lever), per_gyration, c.yield[k]);
+        T force = -field.normal[k] - product_term<k, T>(square, c.y);
+        if constexpr (k == 0) {
             yielding = 1 / c.yield[0];
-        }
-        T force = -field.normal[k] - product_term<T>(square, c.y, k);
-        for (std::size_t j = 1; j <= k; ++j) {
-            force = fma(-c.yield[j], normal[k - j], force);
+        } else {
+            newest_last<k>(
+                [&]<int j>() { force = fma(-c.yield[j + 1], normal[k - 1 - j], force); });
         }
         normal[k] = force * yielding;
-        c.tilt[k + 1] = c.rate[k] * share;
-        c.x[k + 1] = product_term<T>(c.rate, c.y, k) * share;
-        c.y[k + 1] = -product_term<T>(c.rate, c.x, k) * share;
-        c.rate[k + 1] = product_term<T>(normal, lever, k) * per_gyration * share;
+        turn<k>(c);
+        c.rate[k + 1] = product_term<k, T>(normal, lever) * (per_gyration * T(S(1) / (k + 1)));
         // Of slip + x', minus the coefficient of x', which is known from the next one on.
-        c.slip[k + 1] = fma(-pull, normal[k], field.along[k]) * share;
-    }
-    c.yield[std::size_t(order)] = T(0); // below the others, as the coefficients that are left out
-    for (std::size_t k = 1; k < std::size_t(order); ++k) {
-        c.slip[k] = fma(T(-S(int(k) + 1)), c.x[k + 1], c.slip[k]);
-    }
-    const T last = product_term<T>(c.rate, c.y, std::size_t(order)); // of x'
-    c.slip[std::size_t(order)] = c.slip[std::size_t(order)] - last;
-    for (std::size_t k = 0; k + 2 <= std::size_t(order); ++k) {
+        c.slip[k + 1] = fma(-pull, normal[k], field.along[k]) * T(S(1) / (k + 1));
+    });
+    // The last coefficient of the yield is left out, as those above.
+    unrolled<order - 1>([&]<int i>() {
+        constexpr int k = i + 1;
+        c.slip[k] = fma(T(-S(k + 1)), c.x[k + 1], c.slip[k]);
+    });
+    c.slip[order] = c.slip[order] - product_term<order, T>(c.rate, c.y); // minus that of x'
+    unrolled<order - 1>([&]<int k>() {
         c.normal[k] = normal[k];
         c.along[k] = -pull * normal[k];
-    }
+    });
     return c;
 }
 

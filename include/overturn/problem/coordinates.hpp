@@ -43,6 +43,9 @@ double lifting_pga(const Scene& scene, const Point& point);
 /// slide.
 double moving_pga(const Scene& scene, const Point& point);
 
+/// Whether the block slides before it could lift on either side, so that it never rocks.
+bool stays_flat(const Point& point);
+
 /// The values of a coordinate in a box of points. It may vary along some of the dimensions only.
 struct CoordinateValues {
     std::vector<std::size_t> dimensions; ///< along which it varies, slowest first

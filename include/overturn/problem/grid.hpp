@@ -43,6 +43,9 @@ struct Grid {
     /// The values of a quantity; nullptr if the grid does not contain it.
     const Column* find(std::string_view name) const;
 
+    /// Whether the blocks have a friction coefficient.
+    bool may_slip() const { return find("friction") != nullptr; }
+
     /// The place of the dimension along which a quantity of this name or role varies; nullopt if
     /// there is none.
     std::optional<std::size_t> dimension_of(std::string_view name) const;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "overturn/integrate/event_kind.hpp"
+#include "overturn/integrate/sliding_mode.hpp"
 #include "overturn/mechanics/region.hpp"
 #include "overturn/problem/point.hpp"
 #include "overturn/problem/scene.hpp"
@@ -35,6 +36,13 @@ struct HistorySample {
     double q;               ///< 4 sin^2((alpha - |theta|)/2) - theta'^2 (Eq. 12) [rad^2]
     double ground;          ///< acceleration of the ground over g [1]
     double friction_demand; ///< coefficient that the contact needs [1]; NaN in the linear theory
+
+    // Of a block with a friction coefficient.
+    SlidingMode mode = SlidingMode::rest;
+    double slide = 0;          ///< position of the base over R of the side plus [1]
+    double slide_velocity = 0; ///< d slide / d tau [1]
+    double force_along = 0;    ///< of the base on the block, over the weight, towards plus [1]
+    double force_normal = 0;   ///< [1]
 };
 
 struct HistoryEvent {
@@ -47,7 +55,7 @@ struct History {
     std::vector<HistorySample> samples; ///< in order of time
     std::vector<HistoryEvent> events;   ///< those up to the last sample
     double end_of_pulse;                ///< [1/p]
-    double time_of_rest; ///< after which the block is not lifted again [1/p]; may be infinite
+    double time_of_rest; ///< after which the block does not move [1/p]; may be infinite
     double time_of_fall; ///< [1/p]; infinite if the block never lies flat
     /// Settled with more digits if the error of the margin exceeds it.
     Region region;
@@ -56,6 +64,7 @@ struct History {
     bool is_curve_certain; ///< otherwise the true motion may differ, and the margin and the times
                            ///< of rest and fall are NaN
     bool shortened;        ///< the history could not be computed to its end
+    bool slips;            ///< somewhere; then the whole motion is integrated
 };
 
 /// The history of a point under a pulse, or under the first record of the scene. The forced stage

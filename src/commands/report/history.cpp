@@ -13,12 +13,14 @@ namespace {
 
 /// The units of printed values: seconds and degrees if p is known, otherwise 1/p and radians.
 struct Units {
-    explicit Units(const std::optional<double>& p)
-        : per_second(p.value_or(1)), per_angle(p ? in_degrees(1) : 1), time(p ? "s" : "1/p"),
-          after(p ? "s" : "/ p"), angle(p ? "deg" : "rad"), rate(p ? "deg/s" : "rad")
+    Units(const std::optional<double>& p, const std::optional<double>& size_of_block)
+        : size(size_of_block), per_second(p.value_or(1)), per_angle(p ? in_degrees(1) : 1),
+          time(p ? "s" : "1/p"), after(p ? "s" : "/ p"), angle(p ? "deg" : "rad"),
+          rate(p ? "deg/s" : "rad")
     {}
 
-    double per_second; ///< p [1/s]
+    std::optional<double> size; ///< R [m]
+    double per_second;          ///< p [1/s]
     double per_angle;
     const char* time;
     const char* after; ///< the unit after a number
@@ -26,7 +28,7 @@ struct Units {
     const char* rate;
 };
 
-void print_event(const HistoryEvent& event, const Units& units)
+void print_event(const HistoryEvent& event, const Units& units, bool may_slip)
 {
     // A tiny negative angle would print as -0.
     const auto shown = [&](double value) {
@@ -34,22 +36,28 @@ void print_event(const HistoryEvent& event, const Units& units)
         return std::abs(scaled) < 5e-6 ? 0 : scaled;
     };
     const auto rate = [&](double value) { return shown(value) * units.per_second; };
-    fmt::print("{:>10.4f}  {:<13}{:>11.5f}{:>21.5f}{:>20.5f}{:>16.3e}\n",
+    fmt::print("{:>10.4f}  {:<13}{:>11.5f}{:>21.5f}{:>20.5f}{:>16.3e}",
                event.after.time / units.per_second, event_names[std::size_t(event.kind)],
                shown(event.after.angle), rate(event.before.velocity), rate(event.after.velocity),
                event.after.q);
+    if (may_slip) {
+        const double slide = event.after.slide * units.size.value_or(1) * (units.size ? 1000 : 1);
+        fmt::print("{:>13.4g}", std::abs(slide) < 5e-13 ? 0 : slide);
+    }
+    fmt::print("\n");
 }
 
-void print_events(const History& history, const Units& units)
+void print_events(const History& history, const Units& units, bool may_slip)
 {
     constexpr std::size_t most_lines = 24;
-    fmt::print("\n{:>10}  {:<13}{:>11}{:>21}{:>20}{:>16}\n", fmt::format("time [{}]", units.time),
+    fmt::print("\n{:>10}  {:<13}{:>11}{:>21}{:>20}{:>16}{}\n", fmt::format("time [{}]", units.time),
                "event", fmt::format("angle [{}]", units.angle),
                fmt::format("vel. before [{}]", units.rate),
-               fmt::format("vel. after [{}]", units.rate), "q after [rad2]");
+               fmt::format("vel. after [{}]", units.rate), "q after [rad2]",
+               may_slip ? fmt::format("{:>13}", units.size ? "slide [mm]" : "slide [R]") : "");
     const std::size_t shown = std::min(most_lines, history.events.size());
     for (std::size_t i = 0; i < shown; ++i) {
-        print_event(history.events[i], units);
+        print_event(history.events[i], units, may_slip);
     }
     if (shown < history.events.size()) {
         fmt::print("{:>10}  and {} more\n", "", history.events.size() - shown);
@@ -65,10 +73,18 @@ void print_outcome(const History& history, const Problem& problem, const Units& 
                    : fmt::format("after {:.6g} {}", value / units.per_second, units.after);
     };
     print_row("region", name_of(history.region));
-    print_row("margin", history.is_curve_certain ? fmt::format("{:.6g}, error at most {:.1g}",
-                                                               history.margin, history.error)
-                                                 : "unknown");
+    const bool is_known = history.is_curve_certain && !std::isnan(history.margin);
+    print_row("margin",
+              is_known ? fmt::format("{:.6g}, error at most {:.1g}", history.margin, history.error)
+              : history.is_curve_certain && history.slips
+                  ? "unknown, because the block slips after the end of the motion"
+                  : "unknown");
     print_row("peak", peak_text(accurate_values(problem, Field::peak).front(), problem));
+    if (problem.grid.may_slip()) {
+        print_row("slide",
+                  slide_text(accurate_values(problem, Field::slide).front(),
+                             accurate_values(problem, Field::slide_peak).front(), units.size));
+    }
     print_row("falls", time(history.time_of_fall));
     print_row("rests", time(history.time_of_rest));
     if (!history.is_curve_certain) {
@@ -80,7 +96,10 @@ void print_outcome(const History& history, const Problem& problem, const Units& 
                           : "and the curve. The region was settled with more digits.");
     }
     if (history.shortened) {
-        print_row("note", "The history is incomplete: it has too many events.");
+        print_row("note", history.slips
+                              ? "The history is incomplete: it ends where the block would jam or "
+                                "leave the base, or has too many events."
+                              : "The history is incomplete: it has too many events.");
     }
 }
 
@@ -88,10 +107,13 @@ void print_outcome(const History& history, const Problem& problem, const Units& 
 
 void print_history(const Job& job, const History& history)
 {
-    const auto parameter = extent_of(job, "frequency_parameter");
-    const Units units(parameter ? std::optional(parameter->first) : std::nullopt);
+    const auto known = [&](const char* name) {
+        const auto extent = extent_of(job, name);
+        return extent ? std::optional(extent->first) : std::nullopt;
+    };
+    const Units units(known("frequency_parameter"), known("size"));
     print_outcome(history, job.problem, units);
-    print_events(history, units);
+    print_events(history, units, job.problem.grid.may_slip());
 }
 
 } // namespace overturn

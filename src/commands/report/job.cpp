@@ -123,6 +123,30 @@ std::string contact_line(const Job& job)
                                          : "");
 }
 
+/// What blocks that may slip do first, at which peak ground acceleration.
+std::string sliding_line(const Job& job)
+{
+    const Scene& scene = job.problem.scene;
+    Extent flat, sliding, lifting;
+    for (const Point& point : Coordinates(scene, corners_of(job.problem.grid)).points()) {
+        const double pga = moving_pga(scene, point);
+        (stays_flat(point)                 ? flat
+         : pga < lifting_pga(scene, point) ? sliding
+                                           : lifting)
+            .include(pga);
+    }
+    std::vector<std::string> texts;
+    const auto add = [&](const Extent& extent, std::string_view verb, std::string_view rest) {
+        if (extent.first <= extent.last) {
+            texts.push_back(fmt::format("{} from {}{}", verb, extent.text(" g"), rest));
+        }
+    };
+    add(flat, "slides", ", does not rock");
+    add(sliding, "slides", ", may rock");
+    add(lifting, "lifts", " before it slides");
+    return fmt::format("{}", fmt::join(texts, "; or "));
+}
+
 std::string ground_line(const Job& job)
 {
     std::string line = "peak " + extent_of(job, "pga")->text(" g");
@@ -328,6 +352,9 @@ void print_job(const Job& job)
     print_row(job.blocks ? "blocks" : "block", block_line(job));
     if (has_contact_forces(job.problem.scene.theory)) {
         print_row("contact", contact_line(job));
+    }
+    if (job.problem.grid.may_slip()) {
+        print_row("slip", sliding_line(job));
     }
     if (const std::string names = unused_columns(job); !names.empty()) {
         print_row("columns", names + ": stored, without effect");

@@ -45,10 +45,6 @@ std::string friction_text(double friction)
 std::string slip_text(const ToppleAnswer& answer, const std::optional<double>& size)
 {
     const SlipAnswer& slip = *answer.slip;
-    const auto length = [&](double over_size) {
-        return size ? fmt::format("{:.3g} mm", 1000 * *size * over_size)
-                    : fmt::format("{:.3g} R", over_size);
-    };
     const std::string moves =
         std::isinf(slip.moving_pga) ? "does not move at any strength"
         : slip.moving_pga < answer.lifting_pga
@@ -59,16 +55,7 @@ std::string slip_text(const ToppleAnswer& answer, const std::optional<double>& s
     if (!answer.verdict) {
         return text;
     }
-    if (std::isnan(slip.slide)) {
-        text += "; how far it slides is unknown";
-    } else if (slip.slide_peak == 0) {
-        text += "; does not slip here";
-    } else {
-        const bool returns = std::abs(slip.slide) < 1e-6 * slip.slide_peak;
-        text += fmt::format("; slides {}, at most {} away",
-                            returns ? "and returns" : length(std::abs(slip.slide)),
-                            length(slip.slide_peak));
-    }
+    text += "; " + slide_text(slip.slide, slip.slide_peak, size);
     if (slip.slide_peak != 0 && answer.verdict != Verdict::undecided) {
         text += slip.without == answer.verdict     ? "; the verdict without slip is the same"
                 : slip.without == Verdict::topples ? "; sliding helps: without slip it topples"

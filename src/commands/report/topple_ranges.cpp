@@ -293,12 +293,28 @@ std::string peak_text(double peak, const Problem& problem)
     const auto slenderness = only_slenderness_of(problem);
     return std::isnan(peak)   ? "undecided"
            : std::isinf(peak) ? "the block overturns"
-           : peak == 0        ? (problem.grid.find("friction") != nullptr
-                                     ? "0: the block is not lifted"
-                                     : "0: the block is not lifted and stays at rest")
+           : peak == 0        ? (problem.grid.may_slip() ? "0: the block is not lifted"
+                                                         : "0: the block is not lifted and stays at rest")
            : slenderness      ? fmt::format("{:.4g} degrees, {:.3g} % of alpha",
                                             in_degrees(peak * *slenderness), 100 * peak)
                               : fmt::format("{:.3g} % of alpha of its side", 100 * peak);
+}
+
+std::string slide_text(double slide, double slide_peak, const std::optional<double>& size)
+{
+    const auto length = [&](double over_size) {
+        return size ? fmt::format("{:.3g} mm", 1000 * *size * over_size)
+                    : fmt::format("{:.3g} R", over_size);
+    };
+    if (std::isnan(slide)) {
+        return "how far it slides is unknown";
+    }
+    if (slide_peak == 0) {
+        return "does not slip here";
+    }
+    const bool returns = std::abs(slide) < 1e-6 * slide_peak;
+    return fmt::format("slides {}, at most {} away",
+                       returns ? "and returns" : length(std::abs(slide)), length(slide_peak));
 }
 
 } // namespace overturn

@@ -52,4 +52,7 @@ std::string verdict_sentence(const ToppleAnswer& answer, const std::optional<dou
 /// peak: |theta| / alpha; infinite if the block overturns, NaN if that is undecided.
 std::string peak_text(double peak, const Problem& problem);
 
+/// How far a block slides. slide, slide_peak: over R, NaN if unknown; size: R [m], if it is known.
+std::string slide_text(double slide, double slide_peak, const std::optional<double>& size);
+
 } // namespace overturn

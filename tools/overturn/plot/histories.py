@@ -10,6 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from overturn.captions import (file_name, ground_text, ground_word, is_linear, is_recorded, plain, slenderness_text,
                                title_of)
 from overturn.motion_words import worded
@@ -32,16 +33,18 @@ example:
   tools/plot_history recorded.h5 --from 4 --until 12   # from 4 s to 12 s
   tools/plot_history tilt.h5 --units physical    # in seconds and degrees
 
-Grey: duration of the pulse or record. Thin lines, or ticks under a record: impacts. Dashed:
+Grey: duration of the pulse or record. Yellow: the block slips. Thin lines, or ticks under a record: impacts. Dashed:
 |theta| = alpha, where the block balances on an edge, and the limits of velocity and q of an upright
 block that does not overturn. The curves connect the samples of the file: with too few samples,
 peaks of a record are missed."""
 
 INK = "#1f3b57"
 LIMIT = "#c8422b"
+SLIPS = "#f3d9a4"
 MARKS = {"uplift": ("^", "uplift"), "rest": ("s", "at rest"), "fall": ("X", "fall")}
 MOST_IMPACT_LINES = 60
-LIMITS = {"angle": r"$|\theta| = \alpha$: balance on an edge"}  # meaning of the dashed lines
+LIMITS = {"angle": r"$|\theta| = \alpha$: balance on an edge",  # meaning of the dashed lines
+          "friction_demand": "coefficient of friction"}
 LIMITS_OF_UPRIGHT = "limits for an upright block that does not overturn"
 
 # Variable, axis label, share of the height.
@@ -52,12 +55,13 @@ PULSE_PANELS = (
     ("acceleration", r"acceleration  $\theta''$ [rad]", 1),
     ("q", r"$q$ [rad$^2$]", 1),
     ("friction_demand", "friction  $|H|/N$", 0.8),
+    ("slide", "slide  $[R]$", 1),
 )
 RECORD_PANELS = (("ground", r"ground  $\ddot u_g/g$", 1), ("angle", r"tilt  $\theta/\alpha$", 1.6),
-                 ("friction_demand", "friction  $|H|/N$", 0.8))
+                 ("friction_demand", "friction  $|H|/N$", 0.8), ("slide", "slide  $[R]$", 1))
 PHYSICAL_LABELS = {"ground": "ground [g]", "angle": "tilt [degrees]", "velocity": "velocity [degrees/s]",
                    "acceleration": "acceleration [degrees/s²]", "q": "$q$ [degrees²/s²]",
-                   "friction_demand": "friction  $|H|/N$"}
+                   "friction_demand": "friction  $|H|/N$", "slide": "slide [mm]"}
 # Attribute, symbol, unit of the point, in the order of the picture.
 AXES = (("frequency", r"$\omega_p/p$", ""), ("amplitude", r"$a_p/(g\,{threshold})$", ""),
         ("pulse_period", "period", " s"), ("pulse_frequency", "frequency", " Hz"),
@@ -80,6 +84,11 @@ def of_standing(friction, angle, sides):
     return needed
 
 
+def slipping(modes):
+    """Whether the block slips, by samples with the codes of `mode`."""
+    return (modes == 1) | (modes == 3)
+
+
 class History:
     """The contents of the file between two times. Times are in 1/p and angles in rad. Under a record, times are
     in seconds and angles are divided by alpha; in physical units, they are in seconds and degrees."""
@@ -88,7 +97,8 @@ class History:
         self.is_recorded = is_recorded(file)
         panels = RECORD_PANELS if self.is_recorded else PULSE_PANELS
         has_friction = not is_linear(file)
-        self.panels = [panel for panel in panels if panel[0] != "friction_demand" or has_friction]
+        self.panels = [panel for panel in panels if panel[0] in file
+                       and (panel[0] != "friction_demand" or has_friction)]
         self.is_in_seconds = self.is_recorded or units == PHYSICAL
         sides = [float(file.attrs[name]) for name in slendernesses(file)]
         slenderness = sides[0]
@@ -109,9 +119,11 @@ class History:
                             f"{until:g}{unit}.")
         rate = per_time / per_angle
         factors = {"ground": 1, "friction_demand": 1, "angle": 1 / per_angle, "velocity": rate,
-                   "acceleration": per_time * rate, "q": rate**2}
+                   "acceleration": per_time * rate, "q": rate**2,
+                   "slide": 1000 * file.attrs["size"] if units == PHYSICAL and "slide" in file else 1}
         self.values = {name: factors[name] * file[name][:][shown] for name, _, _ in self.panels}
-        if has_friction:
+        self.slips = slipping(file["mode"][:])[shown] if "mode" in file else np.zeros(len(self.time), bool)
+        if has_friction and not self.slips.any():
             self.values["friction_demand"] = of_standing(self.values["friction_demand"], file["angle"][:][shown], sides)
         events = file.events()
         self.events = [(when, kind, angle) for when, kind, angle in zip(
@@ -121,15 +133,16 @@ class History:
         self.has_two_sides = len(sides) > 1
         self.largest_rate = rate * (slenderness if is_linear(file) else 2 * np.sin(slenderness / 2))
         self.end_of_ground_motion = float(file.attrs["end_of_pulse"]) / per_time
+        self.friction = float(file.attrs["friction"]) if "friction" in file.attrs else None
 
     def impacts(self):
         return [when for when, kind, _ in self.events if kind == "impact"]
 
     def limits(self, name):
         """Returns the values of the dashed lines."""
-        if self.has_two_sides and name != "angle":
+        if self.has_two_sides and name not in ("angle", "friction_demand"):
             return ()  # they are those of one side
-        return {"angle": self.alphas,
+        return {"angle": self.alphas, "friction_demand": [self.friction] * (self.friction is not None),
                 "velocity": (-self.largest_rate, self.largest_rate),
                 "q": (0, self.largest_rate**2)}.get(name, ())
 
@@ -143,6 +156,9 @@ def draw_panel(axes, history, name, label):
         for when in impacts:
             axes.axvline(when, color="0.75", linewidth=0.6, zorder=1)
     linewidth = 0.7 if name in ("ground", "friction_demand") and history.is_recorded else 1.3
+    if name in ("friction_demand", "slide") and history.slips.any():
+        axes.fill_between(history.time, 0, 1, where=history.slips, transform=axes.get_xaxis_transform(),
+                          color=SLIPS, linewidth=0, zorder=0.5)
     axes.plot(history.time, values, color=INK, linewidth=linewidth, zorder=3)
     known = values[np.isfinite(values)] if np.isfinite(values).any() else np.zeros(1)
     spread = np.ptp(known) or 1
@@ -160,7 +176,8 @@ def draw_panel(axes, history, name, label):
     name_ticks(axes.yaxis)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
-    return [Line2D([], [], label=LIMITS.get(name, LIMITS_OF_UPRIGHT), **dashed)] * bool(shown)
+    slips = [Patch(color=SLIPS, label="the block slips")] * (name == "slide" and history.slips.any())
+    return slips + [Line2D([], [], label=LIMITS.get(name, LIMITS_OF_UPRIGHT), **dashed)] * bool(shown)
 
 
 def explain(axes, handles, **place):
@@ -231,7 +248,7 @@ def point_of(file, units):
 
 def is_certain(file):
     """Whether the true motion is that of the curve, which is in double precision."""
-    return bool(file.attrs["margin_error"] < abs(file.attrs["margin"]))
+    return bool(file.attrs["curve_is_certain"])
 
 
 def describe(file, units=JOB):
@@ -254,7 +271,8 @@ def describe(file, units=JOB):
                       for name, side in zip(slendernesses(file), (" (+)", " (−)") if len(slendernesses(file)) > 1
                                             else ("",)))
     return ("".join([*(plain(word, 60) + ", " for word in motion_words(file)), *point]) +
-            rf"{alpha}, $r$ = {attributes['restitution']:.4g}: "
+            rf"{alpha}, $r$ = {attributes['restitution']:.4g}"
+            + (rf", $\mu$ = {attributes['friction']:.4g}" if "friction" in attributes else "") + ": "
             f"{outcome}")
 
 
@@ -267,7 +285,8 @@ def name_time(panel, file, history):
 def draw_figure(file, history, units):
     title = title_of(file, ("plane", "block")) or ground_text(file)
     words = Heading(plain(title), describe(file, units), 8.72, (11, 9))
-    height = (5.4 if history.is_recorded else 9.2) + 1.3 * ("friction_demand" in history.values) + words.extra
+    height = (5.4 if history.is_recorded else 9.2) + words.extra + 1.3 * sum(
+        name in history.values for name in ("friction_demand", "slide"))
     figure, panels = pyplot.subplots(len(history.panels), 1, sharex=True, figsize=(9, height),
                                      height_ratios=[share for _, _, share in history.panels])
     for axes, (name, label, _) in zip(panels, history.panels):
