@@ -10,6 +10,7 @@ import os
 import pathlib
 import sys
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
@@ -149,11 +150,68 @@ class TestAPrediction(Simulated):
             self.raises(place, example.Tests, self.folder / "wrong.h5")
 
 
+class TestBlocksThatSlip(Simulated):
+    NODES = {"SLENDERNESS": np.geomspace(0.06, 0.5, 12), "RESTITUTION": np.linspace(0.5, 0.98, 4), "FRICTION": (0.05, 0.15)}
+
+    def setUp(self):
+        for name, values in self.NODES.items():
+            patch = unittest.mock.patch.object(example, name, values)
+            patch.start()
+            self.addCleanup(patch.stop)
+
+    def test_have_the_verdicts_of_each_coefficient_alone(self):
+        alpha, r = np.meshgrid(self.NODES["SLENDERNESS"], self.NODES["RESTITUTION"], indexing="ij")
+        at_most = (1 - 1.5 * np.sin(alpha) ** 2) ** 2
+        self.assertTrue((r > at_most).any())
+        differ = 0
+        for record in self.tests[0][:6]:
+            known = example.verdicts_under(record, TIME_STEP, alpha, r, [None, 0.05, 0.15, 0.4])
+            for friction, verdict in known.items():
+                alone = overturn.evaluate(
+                    slenderness=alpha, restitution=r if friction is None else np.minimum(r, at_most), friction=friction,
+                    frequency_parameter=4.5, record=record, time_step=TIME_STEP, scale=1.0)["verdict"]
+                np.testing.assert_array_equal(verdict, alone)
+            differ += (known[0.05] != known[0.4]).sum() * (known[0.15] != known[0.4]).sum()
+        self.assertGreater(differ, 0)
+
+    def test_are_fitted_and_predicted_beside_those_that_do_not(self):
+        records, flags = self.tests[0], self.tests[1]["a"]
+        write(self.folder / "slip.h5", records, {"a": flags})
+        with unittest.mock.patch.object(example, "fit_block", return_value=(ROCKS["a"], -0.3)):
+            model, _ = example.fit(self.folder / "slip.h5", 2, 1, [0.05, example.FIT])
+        rocks = model["rocks"]
+        self.assertEqual({name: rock["friction"] for name, rock in rocks.items()},
+                         {"a": None, "a_friction_0.05": 0.05, "a_friction_fit": 0.15})  # equally likely: the largest
+        # With a coefficient of 0.05, below tan(0.06), no block lifts.
+        never = np.mean(np.log(np.where(flags, 0.01, 0.99)))
+        self.assertAlmostEqual(rocks["a_friction_0.05"]["log_score"], never, places=12)
+        self.assertGreater(rocks["a"]["log_score"], never)
+        scores, predictions = example.predict(model, self.folder / "slip.h5")
+        for name, rock in rocks.items():
+            # Predictions leave out slendernesses of a weight below 1e-5; other verdicts would change it by 0.1.
+            self.assertAlmostEqual(scores[name]["log_score"], rock["log_score"], delta=1e-4)
+        self.assertEqual(predictions["a_friction_0.05"][0].max(), 0)
+
+    def test_have_the_most_likely_coefficient(self):
+        verdicts = {each: unittest.mock.Mock(of=lambda _, each=each: each) for each in (None, *self.NODES["FRICTION"])}
+        likelihood = {None: -0.1, 0.05: -0.3, 0.15: -0.32}
+        with unittest.mock.patch.object(example, "fit_block", side_effect=lambda each, *_: ({}, likelihood[each])):
+            found = example.fitted(verdicts, np.zeros((4, 2)), np.array([0, 1, 0, 1.0]), np.ones(4, bool),
+                                   {example.FIT: self.NODES["FRICTION"]}, 1)
+        self.assertEqual(found[example.FIT]["friction"], 0.05)
+
+    def test_need_a_coefficient_of_friction(self):
+        for word in ("0", "-1", "nan", "35", "much"):
+            self.refuses(2, "argument --friction: ", "fit", "tests.h5", "--friction", word)
+
+
 class TestTheScores(unittest.TestCase):
     def test_of_known_probabilities(self):
         scores = example.scores(np.array([0.9, 0.2, 0.6, 0.1, np.nan]), np.array([1, 0, 0, np.nan, 1]), bins=2)
         self.assertAlmostEqual(scores["brier"], (0.01 + 0.04 + 0.36) / 3)
         self.assertAlmostEqual(scores["accuracy"], 2 / 3)
+        # Flags are wrong with a probability of 0.01.
+        self.assertAlmostEqual(scores["log_score"], np.log([0.01 + 0.98 * p for p in (0.9, 0.8, 0.4)]).mean())
         self.assertEqual((scores["tests"], scores["left_out"]), (3, 2))
         self.assertEqual(scores["confusion"], {"toppled_and_predicted": 1, "toppled_not_predicted": 0,
                                                "predicted_not_toppled": 1, "neither": 1})

@@ -32,6 +32,11 @@ the restitution r. The frequency parameter p is fixed. Verdicts are computed on 
 restitutions; the probability is their weighted mean. A narrow range of r, fixed and not fitted, is included,
 because single verdicts change with tiny changes of r.
 
+The block does not slip. With --friction, further models of each rock are fitted, whose blocks slip with a coefficient
+of friction; `fit` chooses it for each rock, among {friction}, as the largest that is as likely as any. At an impact
+without slip r is at most r_max = (1 - 3/2 sin^2 slenderness)^2: larger r are replaced by it in these models. A
+coefficient takes about a minute on two cores, the least of several two.
+
 The baseline is a logistic regression on ln PGA and ln(PGV/PGA). Cross-validation is by record.
 
 The file (HDF5): `acceleration` with the attributes dt [s] and units (g), all tests in a row; in the group `tests`
@@ -39,6 +44,9 @@ The file (HDF5): `acceleration` with the attributes dt [s] and units (g), all te
 known); for the fit also `record`, the name of the record. Other datasets are not used."""
 
 FREQUENCY_PARAMETER = 4.5  # p [1/s]
+FIT = "fit"  # a coefficient of friction that is fitted, among these
+FRICTION = (0.2, 0.3, 0.4, 0.6, 0.8)  # [1]
+SLIPPED = 64  # flag of `status`
 # [rad]; steps of 1.9 %: 32 or more between -3 and 3 times the smallest scatter.
 SLENDERNESS = np.geomspace(0.03, 0.6, 161)
 RESTITUTION = np.linspace(0.5, 0.98, 25)  # r [1]; above r_max of the wider blocks
@@ -46,7 +54,7 @@ warnings.filterwarnings("ignore", "r = .* is above r_max")
 RESTITUTION_RANGE = 0.12  # r varies by less, with triangular weights [1]
 BOUNDS = {"slenderness": (0.04, 0.5), "restitution": (0.5, 0.98), "scatter": (0.1, 0.6)}
 WRONG_FLAGS = 0.01  # probability that a flag is wrong: bounds the likelihood of a single test [1]
-CONVERGED = 1e-3  # difference of the mean log-likelihoods of two searches [1]
+CONVERGED = 1e-3  # difference of the mean log-likelihoods of two searches, or two equal models [1]
 LEAST_WEIGHT = 1e-5  # of a slenderness in a prediction: beyond 4 scatters
 GRAVITY = 9.81  # [m/s2]
 COLOURS, MARKERS = ("#0b3c5d", "#c9741a", "#5e8c61", "#7d7d85"), "os^D"
@@ -99,16 +107,41 @@ class Tests:
                         for record in self.records])
         return np.column_stack([np.log(pga), np.log(pgv / pga)])
 
-    def verdicts(self, slenderness, restitution):
-        """Returns the verdict of each test for each slenderness and restitution."""
+    def verdicts(self, slenderness, restitution, friction):
+        """Returns the verdict of each test for each slenderness and restitution, by coefficient of friction (None: no
+        slip)."""
+        least_first = sorted(friction, key=lambda each: each or 0)
+
         def verdicts_of(record):
-            return overturn.evaluate(
-                slenderness=slenderness[:, None], restitution=restitution, frequency_parameter=FREQUENCY_PARAMETER,
-                record=record, time_step=self.time_step, scale=1.0)["verdict"]
+            return verdicts_under(record, self.time_step, *np.broadcast_arrays(slenderness[:, None], restitution),
+                                  least_first)
+        verdicts = {each: [] for each in least_first}
         with concurrent.futures.ThreadPoolExecutor() as threads:
-            verdicts = np.array(list(threads.map(verdicts_of, self.records)))
-        return Verdicts(*(table.astype(float) for table in (verdicts == overturn.Verdict.OVERTURNS,
-                                                            verdicts != overturn.Verdict.UNDECIDED)))
+            for count, found in enumerate(threads.map(verdicts_of, self.records), 1):
+                for each in least_first:
+                    verdicts[each].append(found[each])
+                if count % 25 == 0:
+                    tell(f"verdicts of {count} of {len(self.records)} tests")
+        return {each: Verdicts(*(table.astype(float) for table in (
+            np.array(found) == overturn.Verdict.OVERTURNS, np.array(found) != overturn.Verdict.UNDECIDED)))
+            for each, found in verdicts.items()}
+
+
+def verdicts_under(record, time_step, slenderness, restitution, friction):
+    """Returns the verdicts of blocks under a record by coefficient of friction, of which None is the first and others
+    follow in ascending order. A block that does not slip with one of them has the same verdict with all that are
+    larger."""
+    verdicts, verdict, slips = {}, np.empty(slenderness.shape, np.uint8), np.ones(slenderness.shape, bool)
+    for each in friction:
+        r = restitution if each is None else np.minimum(restitution, (1 - 1.5 * np.sin(slenderness) ** 2) ** 2)
+        found = overturn.evaluate(
+            slenderness=slenderness[slips], restitution=r[slips], frequency_parameter=FREQUENCY_PARAMETER, friction=each,
+            record=record, time_step=time_step, scale=1.0, fields=["status"])
+        verdict[slips] = found["verdict"]
+        verdicts[each] = verdict.copy()
+        if each is not None:
+            slips[slips] = found["status"] & SLIPPED != 0
+    return verdicts
 
 
 class Verdicts(typing.NamedTuple):
@@ -140,24 +173,28 @@ def weights(rock):
     return np.diff(ndtr(edges)), by_restitution / by_restitution.sum()
 
 
+def log_likelihood(probability, toppled):
+    """Returns the mean logarithm of the probabilities of what happened [1]; flags may be wrong."""
+    p = WRONG_FLAGS + (1 - 2 * WRONG_FLAGS) * probability
+    return np.nanmean(np.log(np.where(toppled == 1, p, 1 - p)))
+
+
 def fit_block(verdicts, toppled, seed):
-    """Returns the block with the largest likelihood. The two best of three global searches must agree."""
+    """Returns the block with the largest likelihood, and its likelihood. The two best of three global searches must
+    agree."""
     def rock_of(x):
         return {"slenderness": float(np.exp(x[0])), "restitution": float(x[1]), "scatter": float(np.exp(x[2]))}
 
     def cost(x):
-        p = WRONG_FLAGS + (1 - 2 * WRONG_FLAGS) * verdicts.probability(*weights(rock_of(x)))
-        return -np.nanmean(np.log(np.where(toppled == 1, p, 1 - p)))
+        return -log_likelihood(verdicts.probability(*weights(rock_of(x))), toppled)
 
     bounds = [np.log(BOUNDS["slenderness"]), BOUNDS["restitution"], np.log(BOUNDS["scatter"])]
-    known = ~np.isnan(toppled)
-    verdicts, toppled = verdicts.of(known), toppled[known]
     found = sorted((differential_evolution(cost, bounds, seed=np.random.default_rng([seed, search]), popsize=12,
                                            tol=1e-4, maxiter=300, polish=False) for search in range(3)),
                    key=lambda each: each.fun)
     if not found[0].success or found[1].fun - found[0].fun > CONVERGED:
         raise TestsError(f"the fit did not converge: searches found {[each.fun for each in found]}.")
-    return rock_of(found[0].x)
+    return rock_of(found[0].x), -found[0].fun
 
 
 def fit_logistic(measures, toppled):
@@ -175,15 +212,15 @@ def logistic(coefficients, measures):
 
 
 def scores(probability, toppled, bins=5):
-    """Returns accuracy, Brier score, confusion table and reliability curve over tests with a known flag."""
+    """Returns accuracy, Brier score, logarithmic score, confusion table and reliability curve over tests with a known flag."""
     known = ~np.isnan(toppled) & ~np.isnan(probability)
     p, y = probability[known], toppled[known] == 1
     if not p.size:
-        return {"accuracy": None, "brier": None, "tests": 0, "left_out": len(known)}
+        return {"accuracy": None, "brier": None, "log_score": None, "tests": 0, "left_out": len(known)}
     predicted, place = p > 0.5, np.minimum((p * bins).astype(int), bins - 1)
     filled = [k for k in range(bins) if (place == k).any()]
-    return {"accuracy": float(np.mean(predicted == y)), "brier": float(np.mean((p - y) ** 2)), "tests": int(p.size),
-            "left_out": int((~known).sum()),
+    return {"accuracy": float(np.mean(predicted == y)), "brier": float(np.mean((p - y) ** 2)),
+            "log_score": float(log_likelihood(p, y)), "tests": int(p.size), "left_out": int((~known).sum()),
             "confusion": {name: int(both.sum()) for name, both in (
                 ("toppled_and_predicted", y & predicted), ("toppled_not_predicted", y & ~predicted),
                 ("predicted_not_toppled", ~y & predicted), ("neither", ~y & ~predicted))},
@@ -199,50 +236,66 @@ def folds_of(record_names, count, seed):
     return (np.random.default_rng(seed).permutation(len(names)) % count)[number]
 
 
-def fitted(verdicts, measures, toppled, chosen, seed):
-    """Returns the model of a rock from the chosen tests."""
+def fitted(verdicts, measures, toppled, chosen, choices, seed):
+    """Returns the models of a rock from the chosen tests, for each choice of coefficients of friction."""
     known = chosen & ~np.isnan(toppled)
     if len(set(toppled[known])) < 2:
         raise TestsError("some tests must topple a rock, and others must not, in each fold.")
-    return {**fit_block(verdicts.of(known), toppled[known], seed),
-            "logistic": fit_logistic(measures[known], toppled[known])}
+    with concurrent.futures.ThreadPoolExecutor() as threads:
+        blocks = dict(zip(verdicts, threads.map(lambda each: fit_block(each.of(known), toppled[known], seed),
+                                                verdicts.values())))
+    baseline, models = fit_logistic(measures[known], toppled[known]), {}
+    for choice, coefficients in choices.items():
+        best = max(blocks[each][1] for each in coefficients)
+        friction = [each for each in coefficients if best - blocks[each][1] <= CONVERGED][-1]
+        models[choice] = {**blocks[friction][0], "friction": friction, "logistic": baseline}
+    return models
 
 
-def fit(path, folds, seed):
-    """Returns the model of all rocks, with its scores in cross-validation, and the probabilities of these."""
+def fit(path, folds, seed, friction=()):
+    """Returns the models of all rocks, with their scores in cross-validation, and the probabilities of these. Of each rock,
+    the first does not slip; others have a coefficient of friction, one of FRICTION if it is "fit"."""
     tests = Tests(path)
     if tests.record_names is None or not tests.toppled:
         raise TestsError(f"\"{path}\": a fit needs tests/record and tests/toppled_NAME.")
-    verdicts, measures = tests.verdicts(SLENDERNESS, RESTITUTION), tests.measures()
-    fold = folds_of(tests.record_names, folds, seed)
-    everything, rocks, predictions = np.ones(len(fold), bool), {}, {}
+    choices = {"": [None], **{f"_friction_{each}": FRICTION if each == FIT else [each] for each in friction}}
+    fold, measures = folds_of(tests.record_names, folds, seed), tests.measures()
+    verdicts = tests.verdicts(SLENDERNESS, RESTITUTION, {each for among in choices.values() for each in among})
+    rocks, predictions = {}, {}
     for name, toppled in tests.toppled.items():
-        block, baseline = np.empty(len(fold)), np.empty(len(fold))
+        block, baseline = {choice: np.empty(len(fold)) for choice in choices}, np.empty(len(fold))
         for k in range(folds):
-            rock = fitted(verdicts, measures, toppled, fold != k, seed)
-            block[fold == k] = verdicts.of(fold == k).probability(*weights(rock))
+            for choice, rock in fitted(verdicts, measures, toppled, fold != k, choices, seed).items():
+                block[choice][fold == k] = verdicts[rock["friction"]].of(fold == k).probability(*weights(rock))
             baseline[fold == k] = logistic(rock["logistic"], measures[fold == k])
-        rocks[name] = {**fitted(verdicts, measures, toppled, everything, seed), **scores(block, toppled),
-                       "logistic_regression": scores(baseline, toppled)}
-        predictions[name] = block, toppled
+            tell(f"{name}: {k + 1} of {folds} folds")
+        for choice, rock in fitted(verdicts, measures, toppled, fold >= 0, choices, seed).items():
+            rocks[name + choice] = {"rock": name, **rock, **scores(block[choice], toppled),
+                                    "logistic_regression": scores(baseline, toppled)}
+            predictions[name + choice] = block[choice], toppled
     return {"frequency_parameter": FREQUENCY_PARAMETER, "restitution_range": RESTITUTION_RANGE,
             "scores": f"{folds}-fold cross-validation by record, seed {seed}", "rocks": rocks}, predictions
 
 
 def predict(model, path):
-    """Returns the scores of each rock of the model, null for a rock without flags, and the probabilities."""
+    """Returns the scores of each model of a rock, null for a rock without flags, and the probabilities."""
     tests, result, predictions = Tests(path), {}, {}
     measures, unknown = tests.measures(), np.full(len(tests.records), np.nan)
     for name, rock in model["rocks"].items():
         by_slenderness, by_restitution = weights(rock)
         rows, columns = by_slenderness > LEAST_WEIGHT, by_restitution > 0
-        verdicts = tests.verdicts(SLENDERNESS[rows], RESTITUTION[columns])
+        friction = rock.get("friction")
+        verdicts = tests.verdicts(SLENDERNESS[rows], RESTITUTION[columns], [friction])[friction]
         block = verdicts.probability(by_slenderness[rows], by_restitution[columns])
-        toppled = tests.toppled.get(name, unknown)
+        toppled = tests.toppled.get(rock.get("rock", name), unknown)
         predictions[name] = block, toppled
         result[name] = {**scores(block, toppled),
                         "logistic_regression": scores(logistic(rock["logistic"], measures), toppled)}
     return result, predictions
+
+
+def tell(progress):
+    print(f"shake_table: {progress}", file=sys.stderr, flush=True)
 
 
 def draw(predictions, path):
@@ -259,7 +312,7 @@ def draw(predictions, path):
         predicted, share, count = (np.array([each[key] for each in score["reliability"]])
                                    for key in ("predicted", "toppled", "tests"))
         error = np.sqrt(predicted * (1 - predicted) / count)
-        ax.errorbar(predicted, share, error, color=COLOURS[i % 4], marker=MARKERS[i % 4], markersize=7, capsize=3,
+        ax.errorbar(predicted, share, error, color=COLOURS[i % 4], marker=MARKERS[(i + i // 4) % 4], markersize=7, capsize=3,
                     label=f"{name}: {score['accuracy']:.1%} correct, Brier score {score['brier']:.3f}")
     ax.set_xlabel("predicted probability of toppling (mean of a bin)")
     ax.set_ylabel("fraction of the tests that toppled the rock")
@@ -291,8 +344,15 @@ def read_model(path):
     return model
 
 
+def coefficient(word):
+    """Returns a coefficient of friction, or "fit"."""
+    if word == FIT or 0 < float(word) <= 10:
+        return FIT if word == FIT else float(word)
+    raise ValueError
+
+
 def read_arguments():
-    parser = parser_of("shake_table.py", __doc__, EPILOG)
+    parser = parser_of("shake_table.py", __doc__, EPILOG.format(friction=", ".join(map(str, FRICTION))))
     commands = parser.add_subparsers(dest="command", required=True)
     fitting = commands.add_parser("fit", help="fit a block to each rock; print the scores in cross-validation")
     fitting.add_argument("file", metavar="TESTS.h5")
@@ -304,6 +364,8 @@ def read_arguments():
     predicting = commands.add_parser("predict", help="predict other tests; print the scores")
     predicting.add_argument("model", metavar="MODEL.json", help="written by fit")
     predicting.add_argument("file", metavar="TESTS.h5")
+    fitting.add_argument("--friction", type=coefficient, nargs="+", default=[], metavar="MU",
+                         help="also fit blocks that slip, with these coefficients of friction, or \"fit\"")
     for command in (fitting, predicting):
         command.add_argument("--plot", metavar="OUT.png", help="draw the reliability curve")
         command.add_argument("--csv", metavar="OUT.csv", help="write the probability of each test")
@@ -314,7 +376,7 @@ def main():
     arguments = read_arguments()
     try:
         if arguments.command == "fit":
-            model, predictions = fit(arguments.file, arguments.folds, arguments.seed)
+            model, predictions = fit(arguments.file, arguments.folds, arguments.seed, arguments.friction)
             write_text(arguments.output, json.dumps(model, indent=1) + "\n", "a model of this program",
                        lambda beginning: b'"frequency_parameter"' in beginning)
             result = model["rocks"]

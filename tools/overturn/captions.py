@@ -154,12 +154,14 @@ def motion_text(plane, units):
 
 
 def other_words(plane, units):
-    """Returns the values of other dimensions, and of a strength, rate and size that no axis shows."""
+    """Returns the values of other dimensions, and of a friction, strength, rate and size that no axis shows."""
     file, shown = plane.file, {plane.across, plane.quantities()[1]}
     elsewhere = ("motion", "slenderness", "restitution", "restitution_of_maximum")
     names = [name for name in plane.index if name not in elsewhere]
     if "block" in file and not file["block"].dimensions:  # selected in a data set
         names.append("block")
+    if "friction" in file.coordinates and plane.value("friction") is not None and "friction" not in {*shown, *names}:
+        names.append("friction")
     for kind in (STRENGTHS, SIZES if is_recorded(file) else RATES):
         if not {*shown, *names} & {*kind}:
             known = [name for name in file.coordinates if name in kind and plane.value(name) is not None]
