@@ -117,6 +117,22 @@ class Friction(Scratch):
                     self.expect_slips(self.computed(scene=scene, motion=motion,
                                                     block=block.replace("direction = 180\n", "")))
 
+    def test_is_that_in_the_plane_of_a_direction(self):
+        one, other = (f"{JOBS}/synthetic{name}.AT2" for name in ("", "_vertical"))
+        fields = ["region", "slide", "slide_peak", "status"]
+        both = f'record = "{one}"\nsecond_component = "{other}"'
+        scales = "scale = { first = 1.5, last = 3, count = 4 }"
+        for direction, record in ((0, one), (90, other)):
+            found = self.computed(scene=both, motion=f"{scales}\ndirection = {direction}", friction="0.25",
+                                  fields=fields)
+            alone = self.computed(scene=f'record = "{record}"', motion=scales, friction="0.25", fields=fields)
+            self.assertGreater(np.count_nonzero(alone["slide"]), 0)
+            for name in fields:
+                np.testing.assert_allclose(found[name], alone[name], rtol=0, atol=1e-9)
+        self.write(scene=both, motion=f"{scales}\ndirection = 30", fields=fields)
+        for command in (("run", "job.toml", "-o", "both.h5"), ("check", "job.toml")):
+            self.assert_exit(self.overturn(*command), 0, "the slip is computed in the plane of the direction only")
+
     def test_is_an_axis_and_a_column(self):
         found = self.computed(friction="{ values = [0.2, 0.4, 3.0] }")
         slipped = ((found["status"] & SLIPPED) != 0).reshape(3, -1).sum(axis=1)

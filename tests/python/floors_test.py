@@ -385,6 +385,24 @@ class ABlockOnAFloor(unittest.TestCase):
         self.assertEqual(sum(overturning), 6)
         self.assertEqual(len(overturning), 15)
 
+    def test_slips_as_in_a_job_with_the_text_of_the_floor(self):
+        motion = floor(ground(3), tolerance=1e-3, periods=[0.6], damping=0.05, shape=1.3)
+        block = {"width": 0.4, "height": 1.6, "friction": [0.2, 0.3]}  # b/h = 0.25
+        scale = np.array([1.0, 1.7])
+        with tempfile.TemporaryDirectory() as folder:
+            motion.to_text(pathlib.Path(folder, "floor.txt"))
+            job = overturn.run({"scene": {"record": str(pathlib.Path(folder, "floor.txt")), "units": "g"},
+                                "block": {**block, "friction": {"values": block["friction"]}},
+                                "plane": {"restitution": 0.6, "scale": {"values": scale}},
+                                "numerics": {"method": "taylor"}, "output": {"fields": ["region", "slide", "status"]}})
+        found = overturn.evaluate(**block, restitution=0.6, record=motion, scale=scale[:, None],
+                                  fields=["region", "slide", "status"])
+        for name in ("region", "slide", "status"):
+            np.testing.assert_array_equal(job[name].transpose("scale", "friction"), found[name])
+        self.assertTrue((found["slide"][:, 0] != 0).all())
+        self.assertTrue((found["verdict"][:, 0] == overturn.Verdict.SAFE).all())  # it never lifts
+        self.assertEqual(found["verdict"][1, 1], overturn.Verdict.OVERTURNS)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -9,6 +9,7 @@ import unittest
 
 import h5py
 from plot_fragility_test import Curve  # first: adds the package to the path
+import overturn
 from overturn import risk
 from risk_test import OPENQUAKE
 
@@ -53,6 +54,21 @@ class TestAPicture(Picture):
         self.assertLess(low, high)
         for line in ("points without a verdict safe", "up to: if they overturn", "points without a verdict, or bins"):
             self.assertIn(line, words)
+
+    def test_of_blocks_that_slip_is_that_of_their_friction(self):
+        # With 0.1, no block lifts; with 0.25, the two more slender ones of three do.
+        self.overturn("run", "slips.h5", "plane.scale.count=3", "plane.size=1", "block.friction={values=[0.1, 0.25, 3]}")
+        self.overturn("run", "sticks.h5", "plane.scale.count=3", "plane.size=1")
+        with overturn.open(self.folder / "slips.h5") as slips, overturn.open(self.folder / "sticks.h5") as sticks:
+            counts = [overturn.fragility(slips.sel(friction=each), "pga", samples=1).exceeding.sum() for each in (0.1, 0.25, 3)]
+            self.assertEqual(counts[0], 0)
+            self.assertTrue(0 < counts[1] < counts[2])
+            self.assertEqual(counts[2], overturn.fragility(sticks, "pga", samples=1).exceeding.sum())
+        text, _ = self.words("slips.h5", "hazard.txt", "--samples", "2")
+        self.assertIn(f"{sum(counts)} of 270 points with a verdict, 10 motions, 9 blocks pooled", text)
+        text = self.output_of("slips.h5", "--by", "friction", "--samples", "2", "-o", "by.svg", tool="plot_fragility")
+        for friction, count in zip(("0.1", "0.25", "3"), counts):
+            self.assertRegex(text, rf"{count} of 90 points .*\nfriction = {friction}\n")
 
     def test_replaces_its_own_picture_and_no_other(self):
         for _ in range(2):

@@ -92,6 +92,28 @@ class TestATableOfASpectrum(Table):
         self.assertEqual([[row[name] for name in ("block", "floor", "mass", "note")] for row in rows],
                          [["1", "3", "1.5", 'x, "y"'], ["2", "4", "2.0", ""]])
 
+    def test_of_blocks_that_slip_has_their_friction_and_slide(self):
+        job = """
+            scene.pulse = "one_sine"
+            {block}
+            output.fields = ["region", "slide", "slide_peak", "status"]
+            [plane]
+            pulse_period = 0.5
+            pga = {{ first = 0.3, last = 2.5, count = 4 }}
+            restitution_of_maximum = 1
+            """
+        self.overturn("run", "axis.h5", job=job.format(
+            block="block = { width = 0.6, height = 1.8, friction = { values = [0.2, 0.4] } }"))
+        dataset, rows = self.expect_all_of("axis.h5")
+        self.assertEqual(dataset.region.dims, ("friction", "pga"))
+        self.assertEqual({row["friction"] for row in rows}, {"0.2", "0.4"})
+        self.assertIn("64", [row["status"] for row in rows])
+        (self.folder / "t.csv").write_text("width,height,friction\n0.6,1.8,0.2\n0.6,1.8,0.4\n")
+        self.overturn("run", "list.h5", job=job.format(block='blocks.table = "t.csv"'))
+        _, listed = self.expect_all_of("list.h5")
+        for name in ("friction", "pga", "region", "slide", "slide_peak", "status"):
+            self.assertEqual([row[name] for row in listed], [row[name] for row in rows])
+
     def test_of_a_single_point_has_one_row(self):
         self.overturn("run", "result.h5", "plane.frequency=3", "plane.amplitude=1.5", job=JOBS / "smoke.toml")
         _, rows = self.expect_all_of("result.h5")
