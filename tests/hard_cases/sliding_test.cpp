@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
+#include <random>
 
 namespace overturn {
 namespace {
@@ -165,6 +169,53 @@ TEST(Sliding, AfterAnImpactThatNearlyEndsTheRotationIsDecided)
             EXPECT_LT(end.steps, 200);
         }
     }
+}
+
+/// Kinetic energy, that of sliding included, and potential energy, over the mass.
+double energy_of(const SlidingMotion<double, PulseExcitation<double>>& motion,
+                 const SlidingSide<double>& plus)
+{
+    const SlidingSide<double> side = motion.side() > 0 ? plus : plus.turned();
+    const OnCorner<double> at = on_corner(side, motion.tilt());
+    const double rate = motion.rate();
+    const double along = motion.side() * motion.base_velocity() + rate * at.y;
+    const double upwards = -rate * at.x;
+    return (along * along + upwards * upwards + side.gyration * rate * rate) / 2 +
+           side.gravity * at.y;
+}
+
+/// Of blocks with different sides, in a million steps and impacts.
+TEST(Sliding, OnALevelBaseNeverAddsEnergyOnceTheGroundHasStopped)
+{
+    constexpr double period = 0.5;
+    std::mt19937_64 generator(3);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    std::array<int, 4> steps{}; // by mode
+    while (std::accumulate(steps.begin(), steps.end(), 0) < 1'000'000) {
+        Body body{0.1 + 0.4 * uniform(generator), 0.1 + 0.4 * uniform(generator), 0.9, 0.5};
+        body.share_of_r_max = 0.6 + 0.4 * uniform(generator);
+        const Block<double> block = body.block();
+        const double least = std::min(block.slenderness, block.other.slenderness);
+        const double friction = std::tan(least) * (0.8 + uniform(generator));
+        const double pga = (uniform(generator) < 0.5 ? -1 : 1) * (0.2 + 2 * uniform(generator));
+        const auto excitation =
+            pulse_excitation<Theory::nonlinear>(pulse_motion<double>(PulseKind::half_sine), block,
+                                                pga / std::tan(least), 2 * pi<double>() / period);
+        SlidingMotion<double, PulseExcitation<double>> motion(
+            block, body.gyration / block.size, friction, excitation, 1e-10, Follow::until_rest);
+        const SlidingSide<double> plus = sliding_side(block, body.gyration / block.size, friction);
+        double before = std::numeric_limits<double>::infinity();
+        while (!motion.is_over()) {
+            if (motion.phase() >= excitation.motion.end) {
+                const double now = energy_of(motion, plus);
+                ASSERT_LE(now, before * (1 + 1e-11)) << friction << ", " << pga;
+                before = now;
+                ++steps[std::size_t(motion.mode())];
+            }
+            motion.advance();
+        }
+    }
+    EXPECT_TRUE(std::ranges::all_of(steps, [](int count) { return count > 10'000; }));
 }
 
 } // namespace

@@ -174,45 +174,5 @@ TEST(SlidingMotion, DoesNotDependOnTheUnits)
     }
 }
 
-/// Kinetic energy, that of sliding included, and potential energy, over the mass.
-double energy_of(const SlidingMotion<double, PulseExcitation<double>>& motion,
-                 const SlidingSide<double>& side)
-{
-    const OnCorner<double> at = on_corner(side, motion.tilt());
-    const double rate = motion.rate();
-    const double along = motion.side() * motion.base_velocity() + rate * at.y;
-    const double upwards = -rate * at.x;
-    return (along * along + upwards * upwards + side.gyration * rate * rate) / 2 +
-           side.gravity * at.y;
-}
-
-TEST(SlidingMotion, OnALevelBaseLosesEnergyOnceTheGroundHasStopped)
-{
-    std::mt19937_64 generator(3);
-    std::uniform_real_distribution<double> uniform(0, 1);
-    int slipped = 0;
-    for (int i = 0; i < 500; ++i) {
-        const Box box;
-        const Block<double> block = box.block(0.6 + 0.4 * uniform(generator));
-        const double friction = 0.34 + 0.3 * uniform(generator);
-        const auto excitation =
-            box.pulse(PulseKind::half_sine, 0.3 + uniform(generator), 0.5 + 2 * uniform(generator));
-        SlidingMotion<double, PulseExcitation<double>> motion(block, Box::gyration, friction,
-                                                              excitation, 1e-12);
-        const SlidingSide<double> side = sliding_side(block, Box::gyration, friction);
-        double before = std::numeric_limits<double>::infinity();
-        while (!motion.is_over()) {
-            if (motion.phase() >= excitation.motion.end) {
-                const double now = energy_of(motion, side);
-                ASSERT_LE(now, before * (1 + 1e-11)) << i;
-                before = now;
-            }
-            motion.advance();
-        }
-        slipped += motion.end().slips_after;
-    }
-    EXPECT_GT(slipped, 100);
-}
-
 } // namespace
 } // namespace overturn
