@@ -3,7 +3,7 @@
 
 #include "sweep_kernel.hpp"
 
-#include "overturn/integrate/sliding_motion.hpp"
+#include "overturn/integrate/run_sliding.hpp"
 #include "overturn/mechanics/contact.hpp"
 #include "overturn/mechanics/region.hpp"
 #include "overturn/problem/coordinates.hpp"

@@ -122,13 +122,17 @@ template <Number S, std::size_t count>
 S first_fall(const std::array<S, count>& c, const S& h, const S& noise)
 {
     const S none(-1);
-    S rest(0);
+    // With u = t / h, a sum of terms up to u^m that are not negative is at least u^m times that of
+    // their coefficients, and the other terms are at most u^m times that of their absolute values.
+    S least = greater<S>(c[0], 0);
     S power(1);
+    bool leads = c[0] >= -noise;
     for (std::size_t k = 1; k < count; ++k) {
         power = power * h;
-        rest = rest + abs(c[k]) * power;
+        leads = leads && c[k] >= 0;
+        least = least + (leads ? c[k] : -abs(c[k])) * power;
     }
-    if (c[0] - rest >= -noise) {
+    if (c[0] >= -noise && least >= (c[0] > 0 ? S(-noise) : S(0))) {
         return none;
     }
     using Coefficients = std::array<S, count>;

@@ -3,7 +3,7 @@
 // Taylor series; a change of the mode is a root of a series.
 #pragma once
 
-#include "overturn/integrate/sliding_end.hpp"
+#include "overturn/integrate/run_sliding.hpp"
 #include "overturn/integrate/sliding_ground.hpp"
 #include "overturn/integrate/sliding_mode.hpp"
 #include "overturn/mechanics/energy_criteria.hpp"
@@ -14,9 +14,8 @@ namespace overturn {
 
 /// Excitation: PulseExcitation, or RecordExcitation. S: a scalar.
 template <Number S, class Excitation,
-          int order = std::same_as<Excitation, PulseExcitation<S>> ? 20
-                      : std::same_as<S, double>                    ? 10
-                                                                   : 16>
+          int order =
+              std::same_as<Excitation, RecordExcitation<double, Directions::both>> ? 10 : 16>
     requires(lanes_v<S> == 1)
 class SlidingMotion {
     using Series = SlidingSeries<order, S>;
@@ -566,19 +565,6 @@ private:
     int free_impacts_ = 0;
     SlidingEnd<S> result_{};
 };
-
-/// Follows a block that may slip to the end.
-template <Number S, class Excitation>
-SlidingEnd<S> run_sliding(const Block<S>& block, const S& gyration, const S& friction,
-                          const Excitation& excitation, const S& tolerance,
-                          Follow follow = Follow::until_stuck)
-{
-    SlidingMotion<S, Excitation> motion(block, gyration, friction, excitation, tolerance, follow);
-    while (!motion.is_over()) {
-        motion.advance();
-    }
-    return motion.end();
-}
 
 extern template class SlidingMotion<double, PulseExcitation<double>>;
 extern template class SlidingMotion<double, RecordExcitation<double, Directions::both>>;

@@ -51,14 +51,16 @@ SlidingSeries<order, T> first_coefficients(const SlidingSide<T>& side, const Sli
     return c;
 }
 
-/// Computes the next coefficients of the tilt and of where G is.
+/// Computes the next coefficients of the tilt and of where G is. Returns the k-th one of x'.
 template <int k, int order, Number T>
-void turn(SlidingSeries<order, T>& c)
+T turn(SlidingSeries<order, T>& c)
 {
     const T share(scalar_t<T>(1) / (k + 1));
+    const T velocity = product_term<k, T>(c.rate, c.y);
     c.tilt[k + 1] = c.rate[k] * share;
-    c.x[k + 1] = product_term<k, T>(c.rate, c.y) * share;
+    c.x[k + 1] = velocity * share;
     c.y[k + 1] = -product_term<k, T>(c.rate, c.x) * share;
+    return velocity;
 }
 
 /// The series of a corner that sticks. field: its series, in lengths per unit of time squared.
@@ -99,15 +101,15 @@ SlidingSeries<order, T> series_of_slipping(const SlidingSide<T>& side, const Sli
     SlidingSeries<order, T> c = first_coefficients<order>(side, state);
     const T pull = side.friction * direction;
     const T per_gyration = 1 / side.gyration;
-    Coefficients<order, T> lever;  // m
-    Coefficients<order, T> square; // of the rate
-    Coefficients<order, T> normal; // N
-    T yielding(0);                 // 1 / D[0]
+    Coefficients<order, T> lever;    // m
+    Coefficients<order, T> velocity; // x' = rate y
+    Coefficients<order, T> normal;   // N
+    T yielding(0);                   // 1 / D[0]
     unrolled<order>([&]<int k>() {
         lever[k] = fma(pull, c.y[k], c.x[k]);
-        square[k] = product_term<k, T>(c.rate, c.rate);
+        velocity[k] = turn<k>(c);
         c.yield[k] = fma(product_term<k, T>(c.x, lever), per_gyration, c.yield[k]);
-        T force = -field.normal[k] - product_term<k, T>(square, c.y);
+        T force = -field.normal[k] - product_term<k, T>(c.rate, velocity);
         if constexpr (k == 0) {
             yielding = 1 / c.yield[0];
         } else {
@@ -115,16 +117,12 @@ SlidingSeries<order, T> series_of_slipping(const SlidingSide<T>& side, const Sli
                 [&]<int j>() { force = fma(-c.yield[j + 1], normal[k - 1 - j], force); });
         }
         normal[k] = force * yielding;
-        turn<k>(c);
         c.rate[k + 1] = product_term<k, T>(normal, lever) * (per_gyration * T(S(1) / (k + 1)));
         // Of slip + x', minus the coefficient of x', which is known from the next one on.
         c.slip[k + 1] = fma(-pull, normal[k], field.along[k]) * T(S(1) / (k + 1));
     });
     // The last coefficient of the yield is left out, as those above.
-    unrolled<order - 1>([&]<int i>() {
-        constexpr int k = i + 1;
-        c.slip[k] = fma(T(-S(k + 1)), c.x[k + 1], c.slip[k]);
-    });
+    unrolled<order - 1>([&]<int i>() { c.slip[i + 1] = c.slip[i + 1] - velocity[i + 1]; });
     c.slip[order] = c.slip[order] - product_term<order, T>(c.rate, c.y); // minus that of x'
     unrolled<order - 1>([&]<int k>() {
         c.normal[k] = normal[k];

@@ -1,4 +1,4 @@
-// How far a block that may slip is followed, and how its motion ended.
+// Follows a block that may slip to the end of its motion.
 #pragma once
 
 #include "overturn/mechanics/block.hpp"
@@ -31,8 +31,8 @@ struct SlidingEnd {
     S slide_peak = S(0);   ///< its largest absolute value
 };
 
-/// A larger tolerance would gain little time: the series have the order 20.
-inline constexpr double loosest_sliding_tolerance = 1e-10;
+/// A larger tolerance would gain little time, as most steps end at an event.
+inline constexpr double loosest_sliding_tolerance = 1e-8;
 
 /// A verdict is confirmed by runs with these, the last one in long double.
 inline constexpr std::array tolerances_to_confirm{1e-12, 1e-14, 1e-17};
@@ -46,5 +46,11 @@ enum class Follow {
 
 /// The largest number of steps of a motion, in addition to one per interval of a record.
 inline constexpr int most_sliding_steps = 1 << 18;
+
+/// See SlidingMotion. Defined for double and long double, under pulses and under records.
+template <Number S, class Excitation>
+SlidingEnd<S> run_sliding(const Block<S>& block, const S& gyration, const S& friction,
+                          const Excitation& excitation, const S& tolerance,
+                          Follow follow = Follow::until_stuck);
 
 } // namespace overturn
