@@ -237,7 +237,8 @@ void expect_room_for(const std::string& path, FileKind kind)
         const hdf5::Handle file = hdf5::open_to_read(path);
         found = hdf5::read_text_attribute(file, "kind");
         is_own = is_as_written(file, kind);
-    } catch (const hdf5::Hdf5Error&) { // it has none
+    } catch (const hdf5::Hdf5Error&) {
+        is_own = false; // it has no such attribute, or is damaged
     }
     if (found != name_of(kind)) {
         throw Error(exit_code::output,

@@ -257,10 +257,10 @@ long double result_bytes(const Job& job)
         bytes += Count(record_text(motion).size());
     }
     const auto rank = Count(tiling.shape().size());
+    const auto nodes = tiling.size() / 55 + 2;
     const Count node = 24 + 64 * 8 + 65 * (8 + 8 * (rank + 1));
     for (const Field field : problem.fields) {
-        bytes +=
-            1200 + node * Count(tiling.size() / 55 + 2) + points * Count(bytes_per_point(field));
+        bytes += 1200 + node * Count(nodes) + points * Count(bytes_per_point(field));
     }
     for (const std::string& setting : job.overrides) {
         bytes += Count(setting.size() + 1);
@@ -326,7 +326,7 @@ struct ResultWriter::Open {
         } catch (const hdf5::Hdf5Error& error) {
             const Error failure = cannot_write(tile, dataset, error);
             expect_in_place(); // throws if this is the reason
-            throw failure;
+            throw Error(failure);
         }
     }
 

@@ -100,7 +100,7 @@ std::vector<Given> given_coordinates(const Entry& job, const MotionTraits& motio
             }
             std::vector<std::string_view> keys(axis_keys.begin(), axis_keys.end());
             if (name == "restitution") {
-                keys.push_back("of");
+                keys.emplace_back("of");
                 const auto of = entry->node->is_table() ? find(*entry, "of") : std::nullopt;
                 if (of && index_of_name(*of, shares_of) == 1) {
                     name = "restitution_of_maximum"; // of which this is another spelling
