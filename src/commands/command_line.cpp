@@ -165,9 +165,10 @@ std::function<std::string(const std::string&)> positive_up_to(double largest)
     };
 }
 
+constexpr double largest_pga = 1000; // steps of a search beyond it are too long, or too many
+
 void add_topple_arguments(CLI::App& command, ToppleOptions& options)
 {
-    constexpr double largest_pga = 1000; // steps of a search beyond it are too long, or too many
     const auto number = [&](const char* name, auto& value, const char* unit, const char* text,
                             double largest = std::numeric_limits<double>::infinity()) {
         return add_text(command, name, value, unit, text)->check(positive_up_to(largest));
@@ -202,6 +203,46 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
     command.add_flag("--json", options.json, "Print JSON for programs");
     add_text(command, "-o,--history", options.history, "OUT.h5",
              "Write the motion at --pga or --scale, as overturn history does");
+}
+
+void add_assess_arguments(CLI::App& command, AssessOptions& options)
+{
+    const auto positive = positive_up_to(std::numeric_limits<double>::infinity());
+    command.add_option("OBJECTS", options.objects, "Table of objects (CSV)")->required();
+    add_text(command, "--period", options.periods, "S,...",
+             "Periods of the pulse [s], unless --record is given")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(positive);
+    add_text(command, "--pga", options.pga, "G",
+             "Peak ground acceleration over g of every motion; without it, only strengths")
+        ->check(positive_up_to(largest_pga));
+    add_text(command, "--pulse", options.pulse, "NAME", "Pulse; default: one_sine");
+    add_text(command, "--record", options.records, "FILE",
+             "Recorded motion, or a pattern of several, instead of a pulse; repeatable")
+        ->allow_extra_args(false)
+        ->excludes("--period", "--pulse");
+    add_text(command, "--component", options.component, "NAME",
+             "Name or number in the records; default: 1")
+        ->needs("--record");
+    add_text(command, "--scale", options.scale, "X", "Factor on the records, instead of --pga")
+        ->check(positive)
+        ->needs("--record")
+        ->excludes("--pga");
+    add_text(command, "--direction", options.directions, "DEGREES,...",
+             "Directions of the motion; default: 0 and 180, its mirror image, which differ for\n"
+             "objects whose sides differ")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    add_text(command, "--pga-max", options.pga_max, "G",
+             "Largest peak ground acceleration of the search")
+        ->check(positive_up_to(largest_pga))
+        ->capture_default_str();
+    add_text(command, "--set", options.overrides, "scene.KEY=VALUE",
+             "Set a key of [scene]; repeatable")
+        ->allow_extra_args(false);
+    command.add_flag("--json", options.json, "Print JSON for programs");
+    add_text(command, "--csv", options.csv, "OUT.csv", "Also write a table");
 }
 
 void add_result_file(CLI::App& command, std::string& path)
@@ -261,6 +302,8 @@ Parser::Parser()
         help::history, history, add_history_arguments);
     add("topple", "Answer whether one block topples, and at which PGA", help::topple, topple,
         add_topple_arguments);
+    add("assess", "Answer which objects of a list topple, and at which PGA", help::assess, assess,
+        add_assess_arguments);
     add("keys", "Print the keys of job files: type, range, default and meaning", help::keys, keys,
         add_keys_arguments);
     add("info", "Print a summary of a result file", help::info, info, add_result_file);

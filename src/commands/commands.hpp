@@ -66,6 +66,23 @@ struct ToppleOptions {
 };
 int topple(const ToppleOptions& options);
 
+/// Answers for a list of objects which of them topple, and at which strengths.
+struct AssessOptions {
+    std::string objects;                ///< path of a table of blocks
+    std::vector<std::string> records;   ///< paths; empty: a pulse
+    std::string component;              ///< of the records, its name or number
+    std::string pulse = "one_sine";     ///< its name
+    std::vector<double> periods;        ///< of the pulse [s]
+    std::vector<double> directions;     ///< [degree]
+    std::optional<double> pga;          ///< over g [1]
+    std::optional<double> scale;        ///< of the records [1]
+    std::vector<std::string> overrides; ///< of keys of [scene]
+    double pga_max = 5;                 ///< the largest acceleration searched, over g [1]
+    bool json = false;
+    std::string csv; ///< path of a table; empty: none
+};
+int assess(const AssessOptions& options);
+
 /// Prints what a bug report should contain: program, libraries, processor, Python, and the file
 /// system of the folder, that of the result files.
 int doctor(const std::string& folder);

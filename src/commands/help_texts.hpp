@@ -60,6 +60,25 @@ that are probably in another unit cause a warning. If a record is the motion of 
 floor, from its peak floor acceleration (PFA). The exit code is 0 whatever the verdict. Spectra and
 suites of records need a job file: see overturn run.)";
 
+inline constexpr const char* assess = R"(Examples:
+  overturn assess objects.csv --period 0.5 --pga 0.4
+  overturn assess objects.csv --record 'records/*.AT2' --scale 1 --csv answers.csv
+
+Prints a row for each object, the most vulnerable first: the peak ground acceleration (PGA) that
+lifts it, that from which on it slides, if it has a friction coefficient, and the lowest one that
+topples it; and with --pga or --scale what becomes of it: topples, undecided, rocks, slides or
+stands. All are those of the worst motion and direction. "of motions" is the share of motions,
+periods and directions under which it topples; "median" and "16 %" are the strengths from which on
+half and 16 % of them topple it, in the order of their lowest toppling strengths.
+
+A row of the table is an object; columns are quantities of a block, such as width, height [m],
+incline [rad] and friction (see overturn keys block), and any others, such as name. Without a
+column of restitutions, r is r_max.
+
+The search for the lowest toppling strength ends at --pga-max and has steps of 0.5 % under a
+record, so that narrower ranges may be missed, and is refined to 1e-4. overturn topple gives all
+ranges of an object.)";
+
 inline constexpr const char* check = R"(Example:
   overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }'
 

@@ -1,6 +1,7 @@
 // Whether one block topples under one motion, and at which peak accelerations. The job is made from
 // the command line; everything is computed as by `run`, `boundary` and `history`.
 #include "commands.hpp"
+#include "motion_options.hpp"
 #include "point_history.hpp"
 #include "prepare_output.hpp"
 #include "report/job.hpp"
@@ -12,24 +13,12 @@
 #include "overturn/file/history_and_accuracy_files.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
-#include "overturn/text/quoting.hpp"
-#include "overturn/text/utf8.hpp"
 
 #include <algorithm>
 
 namespace overturn {
 
 namespace {
-
-/// The name of a file or component, or another text, as a string of TOML. Throws Error if
-/// it is not UTF-8.
-std::string quoted_utf8(const std::string& text)
-{
-    if (!is_utf8(text)) {
-        throw Error(exit_code::usage, "{} is not UTF-8. Rename the file.", as_utf8(text));
-    }
-    return in_quotes(text);
-}
 
 /// The text of a job with a single point. If the command line gives no strength, its motion is 0.
 std::string job_text(const ToppleOptions& options)
@@ -38,13 +27,7 @@ std::string job_text(const ToppleOptions& options)
     std::string text = "[scene]\n";
     text += is_recorded ? fmt::format("record = {}\n", quoted_utf8(options.record))
                         : fmt::format("pulse = {}\n", quoted_utf8(options.pulse));
-    if (!options.component.empty()) {
-        const bool is_number =
-            options.component.find_first_not_of("0123456789") == std::string::npos &&
-            !options.component.starts_with('0');
-        text += fmt::format("component = {}\n",
-                            is_number ? options.component : quoted_utf8(options.component));
-    }
+    text += component_line(options.component);
     text += "[plane]\n";
     text += options.scale || (is_recorded && !options.pga)
                 ? fmt::format("scale = {}\n", options.scale.value_or(0))
@@ -76,12 +59,7 @@ void expect_consistent(const ToppleOptions& options)
     refuse_if(options.record.empty() && !options.period,
               "the ground motion is missing. Give --period with the period of a pulse [s], or "
               "--record with the file of a recorded motion.");
-    for (const std::string& argument : options.overrides) {
-        refuse_if(!argument.starts_with("scene.") || argument.starts_with("scene.pulse") ||
-                      argument.starts_with("scene.record"),
-                  "--set takes keys of [scene] here, such as scene.gravity. The other options give "
-                  "the block and the motion.");
-    }
+    expect_keys_of_scene(options.overrides);
     refuse_if(!options.history.empty() && !options.pga && !options.scale,
               "--history is that of one acceleration. Give --pga or --scale.");
 }

@@ -170,14 +170,14 @@ std::vector<double> directions_of(const Problem& problem)
                                                        : std::vector<double>{0, 180};
 }
 
-namespace {
-
 Verdict verdict_of_peak(double peak)
 {
     return std::isnan(peak)   ? Verdict::undecided
            : std::isinf(peak) ? Verdict::topples
                               : Verdict::safe;
 }
+
+namespace {
 
 std::optional<SlipAnswer> slip_of(const Problem& problem, const Point& point,
                                   const ToppleQuestion& question)

@@ -39,6 +39,10 @@ int topple(const ToppleOptions&)
 {
     refuse_to_run();
 }
+int assess(const AssessOptions&)
+{
+    refuse_to_run();
+}
 int keys(const KeysOptions&)
 {
     refuse_to_run();

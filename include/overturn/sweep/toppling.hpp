@@ -63,6 +63,9 @@ std::optional<double> only_slenderness_of(const Problem& problem);
 /// The values of a field of type double at all points, tile by tile, as accurate as possible.
 std::vector<double> accurate_values(Problem problem, Field field);
 
+/// The verdict of a block with this value of the field `peak`.
+Verdict verdict_of_peak(double peak);
+
 /// The directions of the motion that are computed [degree]: the given one. Without it the motion as
 /// it stands and, of a block whose sides differ, its mirror image, because either may be worse.
 std::vector<double> directions_of(const Problem& problem);

@@ -107,11 +107,9 @@ void print_outcome(const History& history, const Problem& problem, const Units& 
 
 void print_history(const Job& job, const History& history)
 {
-    const auto known = [&](const char* name) {
-        const auto extent = extent_of(job, name);
-        return extent ? std::optional(extent->first) : std::nullopt;
-    };
-    const Units units(known("frequency_parameter"), known("size"));
+    const auto parameter = extent_of(job, "frequency_parameter");
+    const Units units(parameter ? std::optional(parameter->first) : std::nullopt,
+                      size_of_only_block(job));
     print_outcome(history, job.problem, units);
     print_events(history, units, job.problem.grid.may_slip());
 }

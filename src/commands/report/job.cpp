@@ -282,6 +282,16 @@ std::string_view quantity_meant_by(std::string_view column, const Grid& grid)
 
 } // namespace
 
+std::optional<double> size_of_only_block(const Job& job)
+{
+    for (const char* name : {"size", "size_plus"}) {
+        if (const auto extent = extent_of(job, name)) {
+            return extent->first;
+        }
+    }
+    return std::nullopt;
+}
+
 std::string block_line(const Job& job)
 {
     std::string line;

@@ -15,6 +15,9 @@ namespace overturn {
 /// The extent of a coordinate over all points of a job; nullopt if the coordinate is not known.
 std::optional<Extent> extent_of(const Job& job, std::string_view name);
 
+/// R of the side plus of the only block [m]; nullopt if it is not known.
+std::optional<double> size_of_only_block(const Job& job);
+
 std::string block_line(const Job& job);
 
 /// A line for each record: its file, components, duration and intensity. Then a line for each that

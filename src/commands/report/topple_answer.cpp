@@ -188,11 +188,7 @@ void print_answer(const std::vector<DirectedAnswer>& all, const ToppleOptions& o
             print_row("peak tilt", peak_text(answer.peak, job.problem));
         }
         if (answer.slip) {
-            const auto size = extent_of(job, "size");
-            const auto size_plus = extent_of(job, "size_plus");
-            print_row("friction", slip_text(answer, size        ? std::optional(size->first)
-                                                    : size_plus ? std::optional(size_plus->first)
-                                                                : std::nullopt));
+            print_row("friction", slip_text(answer, size_of_only_block(job)));
         } else if (answer.friction_demand) {
             print_row("friction", job.problem.scene.worded(friction_text(*answer.friction_demand)));
         }

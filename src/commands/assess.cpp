@@ -1,0 +1,109 @@
+// Which objects of a list topple, and at which strengths. The job is made from the command line;
+// the verdicts are those of `topple`.
+#include "commands.hpp"
+#include "motion_options.hpp"
+#include "report/assessment.hpp"
+#include "report/job.hpp"
+#include "report/print.hpp"
+#include "report/progress.hpp"
+
+#include "overturn/file/answer_table.hpp"
+#include "overturn/job/job.hpp"
+#include "overturn/record/text_file.hpp"
+#include "overturn/sweep/kernel.hpp"
+#include "overturn/text/mapped.hpp"
+#include "overturn/text/quoting.hpp"
+#include "overturn/text/table.hpp"
+
+#include <algorithm>
+#include <thread>
+
+namespace overturn {
+
+namespace {
+
+constexpr TextFileKind objects_file{"a table", largest_table_file,
+                                    "Give the path of a table of objects.", "Split the table."};
+
+void expect_consistent(const AssessOptions& options)
+{
+    if (options.records.empty() && options.periods.empty()) {
+        throw Error(exit_code::usage,
+                    "the ground motion is missing. Give --period with the periods of a pulse [s], "
+                    "or --record with the files of recorded motions.");
+    }
+    expect_keys_of_scene(options.overrides);
+}
+
+/// The text of a job whose blocks are the objects. Without a strength, the motions are 0.
+std::string job_text(const AssessOptions& options)
+{
+    const Table table = read_table(text_of_file(options.objects, objects_file), options.objects);
+    const auto has = [&](const char* name) { return table.find(name) != nullptr; };
+    const bool is_recorded = !options.records.empty();
+    std::string text = "[scene]\n";
+    text += is_recorded ? fmt::format("record = [{}]\n",
+                                      fmt::join(mapped(options.records, quoted_utf8), ", "))
+                        : fmt::format("pulse = {}\n", quoted_utf8(options.pulse));
+    text += component_line(options.component);
+    text += fmt::format("[blocks]\ntable = {}\n[plane]\n", quoted_utf8(options.objects));
+    text += options.scale || (is_recorded && !options.pga)
+                ? fmt::format("scale = {}\n", options.scale.value_or(0))
+                : fmt::format("pga = {}\n", options.pga.value_or(0));
+    if (!is_recorded) {
+        text +=
+            fmt::format("pulse_period = {{ values = [{}] }}\n", fmt::join(options.periods, ", "));
+    }
+    if (!has("restitution") && !has("restitution_of_maximum")) {
+        text += "restitution_of_maximum = 1\n";
+    }
+    if (!has("direction")) {
+        const std::vector<double> both{0, 180};
+        text +=
+            fmt::format("direction = {{ values = [{}] }}\n",
+                        fmt::join(options.directions.empty() ? both : options.directions, ", "));
+    }
+    return text;
+}
+
+} // namespace
+
+int assess(const AssessOptions& options)
+{
+    widest_kernel(); // throws if this processor supports none
+    expect_consistent(options);
+    const Job job = read_job_text(job_text(options), command_line, options.overrides);
+    if (!options.json) {
+        print_warnings(warnings_on(job));
+    }
+    if (!options.csv.empty()) {
+        expect_place_for_answers(options.csv);
+    }
+    std::optional<Progress> progress;
+    const AssessmentQuestion question{.has_strength = options.pga || options.scale,
+                                      .pga_max = options.pga_max,
+                                      .threads =
+                                          int(std::max(1U, std::thread::hardware_concurrency())),
+                                      .progress = [&](std::size_t done, std::size_t all) {
+                                          if (!progress) {
+                                              progress.emplace(0, std::int64_t(all), "cases");
+                                          }
+                                          progress->update(std::int64_t(done));
+                                      }};
+    const std::vector<ObjectAnswer> answers = answers_of(cases_of(job.problem, question));
+    progress.reset();
+    if (!options.csv.empty()) {
+        write_answers(options.csv, csv_of(job, answers));
+    }
+    if (options.json) {
+        fmt::print("{}", json_of(job, answers, options));
+        return exit_code::complete;
+    }
+    print_assessment(job, answers, options);
+    if (!options.csv.empty()) {
+        fmt::print("\n{}: written\n", printable(options.csv));
+    }
+    return exit_code::complete;
+}
+
+} // namespace overturn

@@ -1,0 +1,359 @@
+#include "overturn/sweep/assessment.hpp"
+
+#include "point_run.hpp"
+
+#include "overturn/problem/coordinates.hpp"
+#include "overturn/sweep/compute_tile.hpp"
+#include "overturn/sweep/toppling.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <span>
+#include <thread>
+#include <tuple>
+
+namespace overturn {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Verdicts close to a flip need more digits. Of a block that may slip, of which there are none,
+/// only the verdict at the asked strength is confirmed.
+Numerics numerics_of_search(const Scene& scene, const Point& point)
+{
+    const bool may_slip = std::isfinite(point.friction);
+    Numerics numerics;
+    numerics.method = scene.pulse() != nullptr ? Method::rk45 : Method::taylor;
+    numerics.resolve = !may_slip;
+    numerics.tolerance = may_slip ? numerics.tolerance : tolerance_to_resolve_from;
+    return numerics;
+}
+
+/// Calls work(i) for 0 <= i < count in several threads, and `progress` in this one. The first
+/// exception of a thread ends all, and is thrown again.
+void in_threads(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
+                const std::function<void(std::size_t done)>& progress)
+{
+    std::atomic<std::size_t> next = 0;
+    std::atomic<std::size_t> done = 0;
+    std::exception_ptr failure;
+    std::mutex mutex;
+    const auto take = [&](bool is_caller) {
+        for (std::size_t i = next++; i < count; i = next++) {
+            try {
+                work(i);
+            } catch (...) {
+                const std::scoped_lock lock(mutex);
+                failure = failure ? failure : std::current_exception();
+                next = count;
+            }
+            ++done;
+            if (is_caller && progress) {
+                progress(done);
+            }
+        }
+    };
+    {
+        std::vector<std::jthread> others;
+        for (int i = 1; i < threads; ++i) {
+            others.emplace_back(take, false);
+        }
+        take(true);
+    }
+    if (failure) {
+        std::rethrow_exception(failure);
+    }
+}
+
+/// The places along a dimension of the points of a grid, row by row.
+std::vector<std::int64_t> places_along(const Grid& grid, std::size_t dimension)
+{
+    std::vector<std::int64_t> places(std::size_t(grid.points()));
+    std::int64_t inner = 1;
+    for (std::size_t i = dimension + 1; i < grid.dimensions.size(); ++i) {
+        inner *= grid.dimensions[i].size();
+    }
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        places[i] = std::int64_t(i) / inner % grid.dimensions[dimension].size();
+    }
+    return places;
+}
+
+/// At least this number of tiles, if there are as many points, each of successive points.
+Tiling contiguous_tiling(const Shape& shape, std::int64_t least)
+{
+    Shape tile = shape;
+    std::int64_t tiles = 1;
+    for (std::size_t i = 0; i < shape.size() && tiles < least; ++i) {
+        tiles *= shape[i];
+        tile[i] = 1;
+    }
+    return Tiling(shape, tile);
+}
+
+/// Sets the verdicts at the asked strength.
+void judge(const Problem& problem, const std::vector<std::size_t>& points, int threads,
+           std::vector<ObjectCase>& cases)
+{
+    const auto values_of = [&](Field field) {
+        Problem accurate = problem;
+        accurate.numerics = most_accurate;
+        accurate.fields = {field};
+        const Tiling tiling = contiguous_tiling(problem.grid.shape(), 4 * threads);
+        std::vector<std::vector<double>> tiles(std::size_t(tiling.size()));
+        in_threads(
+            tiles.size(), threads,
+            [&](std::size_t i) {
+                const Tile tile = tiling[std::int64_t(i)];
+                tiles[i] = std::get<std::vector<double>>(
+                    compute_tile(accurate, tile, widest_kernel()).values[0]);
+            },
+            nullptr);
+        std::vector<double> values;
+        for (const std::vector<double>& tile : tiles) {
+            values.insert(values.end(), tile.begin(), tile.end());
+        }
+        return values;
+    };
+    const std::vector<double> peaks = values_of(Field::peak);
+    const std::vector<double> slides =
+        problem.grid.may_slip() ? values_of(Field::slide_peak) : std::vector<double>();
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        ObjectCase& each = cases[i];
+        each.peak = peaks[points[i]];
+        each.verdict = verdict_of_peak(each.peak);
+        each.slide_peak = slides.empty() ? 0 : slides[points[i]];
+    }
+}
+
+} // namespace
+
+LowestToppling lowest_toppling(const Scene& scene, const BoundaryLine& line, double lifting,
+                               double end, double included, const DropRequested& drop_requested)
+{
+    LowestToppling lowest{.pga = {}, .undecided = {}, .end = end};
+    lowest.end = std::min(end, last_before_free_fall(scene, line));
+    if (!(lifting < lowest.end)) {
+        return lowest;
+    }
+    std::vector<double> scan = scanned_accelerations(scene, lifting, lowest.end);
+    const double steps = std::ceil(std::log(lowest.end / lifting) / toppling_step);
+    for (double i = 1; i < steps; ++i) {
+        scan.push_back(lifting * std::pow(lowest.end / lifting, i / steps));
+    }
+    if (lifting < included && included < lowest.end) {
+        scan.push_back(included);
+    }
+    std::ranges::sort(scan);
+    const Numerics numerics = numerics_of_search(scene, line.point);
+    const auto verdicts_at = [&](std::span<const double> accelerations) {
+        std::vector<Point> points(accelerations.size(), line.point);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            points[i].amplitude = accelerations[i] / line.unit;
+        }
+        const PointRun run(scene, std::move(points), widest_kernel(), drop_requested);
+        const Outcomes outcomes = outcomes_of(run, numerics, {.region = true}, 0);
+        std::vector<Verdict> verdicts;
+        for (int i = 0; i < outcomes.size(); ++i) {
+            verdicts.push_back(verdict_of(outcomes[std::size_t(i)].region));
+        }
+        return verdicts;
+    };
+    double safe = lifting; // the largest settled acceleration below those that are searched
+    constexpr std::size_t at_once = 32;
+    for (std::size_t begin = 0; begin < scan.size(); begin += at_once) {
+        const std::size_t count = std::min(at_once, scan.size() - begin);
+        const std::span<const double> part(scan.data() + begin, count);
+        const std::vector<Verdict> verdicts = verdicts_at(part);
+        for (std::size_t i = 0; i < count && !lowest.pga; ++i) {
+            if (verdicts[i] == Verdict::topples) {
+                lowest.pga = part[i];
+            } else if (verdicts[i] == Verdict::safe) {
+                safe = part[i];
+            } else if (!lowest.undecided) {
+                lowest.undecided = part[i];
+            }
+        }
+        if (lowest.pga) {
+            break;
+        }
+    }
+    // In steps of a ninth, as many as a pack has lanes at once.
+    while (lowest.pga && *lowest.pga > safe * (1 + width_of_lowest)) {
+        std::vector<double> between;
+        for (int i = 1; i <= 8; ++i) {
+            between.push_back(safe + (*lowest.pga - safe) * i / 9);
+        }
+        const std::vector<Verdict> verdicts = verdicts_at(between);
+        bool has_settled = false;
+        for (std::size_t i = 0; i < between.size(); ++i) {
+            if (verdicts[i] == Verdict::topples) {
+                lowest.pga = between[i];
+                has_settled = true;
+                break;
+            }
+            if (verdicts[i] == Verdict::safe) {
+                safe = between[i];
+                has_settled = true;
+            }
+        }
+        if (!has_settled) {
+            lowest.undecided =
+                std::min(lowest.undecided.value_or(between.front()), between.front());
+            break;
+        }
+    }
+    return lowest;
+}
+
+std::vector<ObjectCase> cases_of(const Problem& problem, const AssessmentQuestion& question)
+{
+    const Scene& scene = problem.scene;
+    const Coordinates coordinates(scene, problem.grid);
+    const auto table = std::size_t(problem.grid.table() - problem.grid.dimensions.data());
+    const char* const size = coordinates.has("size") ? "size" : "size_plus";
+    const std::vector<double> sizes =
+        coordinates.has(size) ? coordinates.along({table}, size) : std::vector<double>();
+    const std::vector<Point> points = coordinates.points();
+    const std::vector<std::int64_t> rows = places_along(problem.grid, table);
+    std::vector<std::size_t> chosen;
+    std::vector<ObjectCase> cases;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Point& point = points[i];
+        const bool is_mirror_image = std::signbit(point.amplitude) && !scene.has_two_components();
+        if (!(is_mirror_image && point.block.is_symmetric())) {
+            chosen.push_back(i);
+            cases.push_back({.object = rows[i],
+                             .point = point,
+                             .size = sizes.empty() ? unknown : sizes[std::size_t(rows[i])]});
+        }
+    }
+    if (question.has_strength) {
+        judge(problem, chosen, question.threads, cases);
+    }
+    in_threads(
+        cases.size(), question.threads,
+        [&](std::size_t i) {
+            ObjectCase& each = cases[i];
+            const double unit = pga_of_unit(scene, each.point);
+            each.pga = std::abs(each.point.amplitude) * unit;
+            each.lifting_pga = lifting_pga(scene, each.point);
+            each.moving_pga = moving_pga(scene, each.point);
+            const double sign = std::signbit(each.point.amplitude) ? -1 : 1;
+            each.lowest = lowest_toppling(scene, {each.point, sign * unit}, each.lifting_pga,
+                                          std::max(question.pga_max, each.pga), each.pga, nullptr);
+            if (each.verdict == Verdict::topples &&
+                !(each.lowest.pga && *each.lowest.pga <= each.pga)) {
+                each.lowest.pga = each.pga; // the search missed a narrow range
+            }
+        },
+        [&](std::size_t done) {
+            if (question.progress) {
+                question.progress(done, cases.size());
+            }
+        });
+    std::ranges::stable_sort(cases, {}, &ObjectCase::object);
+    return cases;
+}
+
+namespace {
+
+/// The smallest strength up to which this share of the ascending strengths lies; nullopt if it is
+/// infinite.
+std::optional<double> order_statistic(const std::vector<double>& ascending, double share)
+{
+    const auto count = std::size_t(std::ceil(share * double(ascending.size()) - 1e-9));
+    const double value = ascending[std::max<std::size_t>(count, 1) - 1];
+    return std::isinf(value) ? std::nullopt : std::optional(value);
+}
+
+std::optional<double> lesser_of(const std::optional<double>& one, const std::optional<double>& two)
+{
+    return one && two ? std::min(*one, *two) : one ? one : two;
+}
+
+double lowest_not_safe(const std::optional<double>& toppling,
+                       const std::optional<double>& undecided)
+{
+    return lesser_of(toppling, undecided).value_or(infinity);
+}
+
+ObjectAnswer answer_of_cases(std::span<const ObjectCase> cases)
+{
+    ObjectAnswer answer{.object = cases.front().object,
+                        .lifting_pga = infinity,
+                        .moving_pga = infinity,
+                        .toppling_pga = {},
+                        .undecided_pga = {},
+                        .end_of_search = infinity,
+                        .median = {},
+                        .percentile_16 = {},
+                        .verdict = {}};
+    std::vector<double> strengths;
+    const bool has_strength = cases.front().verdict.has_value();
+    for (const ObjectCase& each : cases) {
+        const LowestToppling& lowest = each.lowest;
+        answer.lifting_pga = std::min(answer.lifting_pga, each.lifting_pga);
+        answer.moving_pga = std::min(answer.moving_pga, each.moving_pga);
+        answer.toppling_pga = lesser_of(answer.toppling_pga, lowest.pga);
+        answer.undecided_pga = lesser_of(answer.undecided_pga, lowest.undecided);
+        answer.end_of_search = std::min(answer.end_of_search, lowest.end);
+        strengths.push_back(lowest_not_safe(lowest.pga, lowest.undecided));
+        ++answer.cases;
+        if (has_strength) {
+            answer.pga = std::max(answer.pga, each.pga);
+            answer.toppling += each.verdict == Verdict::topples;
+            answer.undecided += each.verdict == Verdict::undecided;
+            answer.slides = answer.slides || !(each.slide_peak == 0);
+            const double slide = each.slide_peak == 0 ? 0 : each.slide_peak * each.size;
+            answer.slide = answer.slide < slide || std::isnan(slide) ? slide : answer.slide;
+            answer.peak = answer.peak < each.peak ? each.peak : answer.peak;
+        }
+    }
+    if (answer.toppling_pga && answer.undecided_pga &&
+        !(*answer.undecided_pga < *answer.toppling_pga)) {
+        answer.undecided_pga.reset();
+    }
+    std::ranges::sort(strengths);
+    answer.median = order_statistic(strengths, 0.5);
+    answer.percentile_16 = order_statistic(strengths, 0.16);
+    if (has_strength) {
+        answer.verdict = answer.toppling > 0    ? Verdict::topples
+                         : answer.undecided > 0 ? Verdict::undecided
+                                                : Verdict::safe;
+        answer.peak = answer.verdict == Verdict::undecided ? unknown : answer.peak;
+    }
+    return answer;
+}
+
+} // namespace
+
+std::vector<ObjectAnswer> answers_of(const std::vector<ObjectCase>& cases)
+{
+    std::vector<ObjectAnswer> answers;
+    for (std::size_t first = 0; first < cases.size();) {
+        std::size_t next = first;
+        while (next < cases.size() && cases[next].object == cases[first].object) {
+            ++next;
+        }
+        answers.push_back(answer_of_cases({cases.data() + first, next - first}));
+        first = next;
+    }
+    const auto rank = [](const ObjectAnswer& answer) {
+        const int of_verdict = answer.verdict == Verdict::topples     ? 0
+                               : answer.verdict == Verdict::undecided ? 1
+                                                                      : 2;
+        return std::tuple(of_verdict, lowest_not_safe(answer.toppling_pga, answer.undecided_pga),
+                          answer.moving_pga, answer.object);
+    };
+    std::ranges::sort(answers, {}, rank);
+    return answers;
+}
+
+} // namespace overturn

@@ -1,0 +1,145 @@
+"""`overturn assess`: its rows are those of `run` and own arithmetic."""
+
+import csv
+import json
+import math
+import unittest
+
+import h5py
+import numpy as np
+
+from program import JOBS, Scratch
+
+TABLE = """name,width,height
+vase,0.18,0.45
+statue,0.6,1.8
+slim,0.2,1.6
+"cabinet, low",0.9,1
+"""
+
+
+class Assess(Scratch):
+    def write_table(self, text, name="objects.csv"):
+        (self.folder / name).write_text(text)
+
+    def rows(self, *options):
+        found = self.overturn("assess", "objects.csv", "--json", *options)
+        self.assert_exit(found, 0)
+        return {row["name"]: row for row in json.loads(found.stdout)["objects"]}
+
+    def regions(self, strengths, motion, direction=None):
+        """The regions of the objects at these strengths, as `run` computes them."""
+        lines = [f"blocks.table = \"objects.csv\"\nnumerics.resolve = true\nscene.{motion[0]}\n[plane]", *motion[1:],
+                 "restitution_of_maximum = 1", f"pga.values = {json.dumps(list(strengths))}"]
+        lines += [f"direction = {direction}"] * (direction is not None)
+        (self.folder / "job.toml").write_text("\n".join(lines))
+        (self.folder / "r.h5").unlink(missing_ok=True)
+        self.assert_exit(self.overturn("run", "job.toml", "-o", "r.h5"), 0)
+        with h5py.File(self.folder / "r.h5") as file:
+            region = file["region"]
+            names = [b"".join(letters).decode().strip("\0 ") for letters in file["name"][()]]
+            place = [d[0].name.rsplit("/", 1)[-1] for d in region.dims].index("block")
+            values = np.moveaxis(region[()], place, 0).reshape(len(names), -1)
+        return dict(zip(names, values))
+
+    def test_has_the_lowest_strength_and_the_verdict_of_run(self):
+        generator = np.random.default_rng(5)
+        for motion, options in ((['pulse = "one_sine"', "pulse_period = 0.5"], ["--period", "0.5"]),
+                                ([f'record = "{JOBS}/synthetic.AT2"'], ["--record", f"{JOBS}/synthetic.AT2"])):
+            heights = generator.uniform(0.4, 2.5, 12)
+            widths = heights * generator.uniform(0.15, 0.5, 12)
+            self.write_table("name,width,height\n" + "".join(f"o{i},{w},{h}\n"
+                                                             for i, (w, h) in enumerate(zip(widths, heights))))
+            rows = self.rows("--pga", "0.6", "--pga-max", "2", *options)
+            self.assertEqual(len(rows), 12)
+            asked = self.regions([0.6], motion)
+            strengths = np.geomspace(0.1, 2, 3000)  # steps of 0.1 %
+            scanned = self.regions(strengths, motion)
+            edges = [row["topples_from"] for row in rows.values() if row["topples_from"]]
+            at_edges = self.regions(sorted(edges), motion)
+            below = self.regions(sorted(edge * (1 - 1.01e-4) for edge in edges), motion)
+            for name, row in rows.items():
+                topples = asked[name][0] > 2
+                self.assertEqual(row["verdict"] == "topples", topples)
+                self.assertEqual(row["share_toppling"], float(topples))
+                width, height = widths[int(name[1:])], heights[int(name[1:])]
+                self.assertAlmostEqual(row["lifts_from"], width / height, places=12)
+                is_regular = "pulse" in motion[0]  # under a record, ranges have narrow gaps, and gaps narrow ranges
+                # Ranges that are wider than the steps of the search, 0.5 %: with seven neighbours that topple.
+                toppling = strengths[:-6][np.lib.stride_tricks.sliding_window_view(scanned[name] > 2, 7).all(axis=1)]
+                if len(toppling) and is_regular:
+                    self.assertLessEqual(row["topples_from"], toppling[0] * (1 + 1e-4))
+                if row["topples_from"]:
+                    place = sorted(edges).index(row["topples_from"])
+                    self.assertGreater(at_edges[name][place], 2)
+                    self.assertTrue(below[name][place] <= 2 or not is_regular)
+                else:
+                    self.assertEqual(len(toppling), 0)
+                    self.assertFalse(topples)
+                    self.assertIn("searched up to 2 g", row["note"])
+
+    def test_combines_motions_and_directions(self):
+        self.write_table("name,width,height,center_offset\nleaning,0.4,1.2,0.05\nstraight,0.5,1.6,0\n")
+        periods, directions = (0.3, 0.5, 0.8), (0, 180)
+        together = self.rows("--period", ",".join(map(str, periods)), "--pga", "0.5")
+        alone = {(period, direction): self.rows("--period", str(period), "--pga", "0.5", "--direction", str(direction))
+                 for period in periods for direction in directions}
+        for name, row in together.items():
+            cases = [each[name] for key, each in alone.items() if name == "leaning" or key[1] == 0]
+            self.assertEqual(row["cases"], len(cases))
+            lowest = sorted(case["topples_from"] or math.inf for case in cases)
+            self.assertEqual(row["topples_from"], lowest[0])
+            self.assertEqual(row["median"], lowest[len(cases) // 2 - 1] if len(cases) % 2 == 0 else lowest[1])
+            self.assertEqual(row["percentile_16"], lowest[0])
+            self.assertEqual(row["lifts_from"], min(case["lifts_from"] for case in cases))
+            self.assertAlmostEqual(row["share_toppling"], np.mean([case["share_toppling"] for case in cases]), places=12)
+
+    def test_lists_the_most_vulnerable_first_as_text_and_csv(self):
+        self.write_table(TABLE)
+        found = self.overturn("assess", "objects.csv", "--period", "0.5", "--pga", "0.53", "--csv", "a.csv")
+        self.assert_exit(found, 0)
+        self.assertIn("steps of at most 0.5 % and refined to 0.01 %", found.stdout)
+        names = [line.split()[0] for line in found.stdout.split("\n\n")[1].splitlines()[1:]]
+        self.assertEqual(names, ["slim", "vase", "statue", "cabinet,"])
+        with open(self.folder / "a.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["name"] for row in rows], ["slim", "vase", "statue", "cabinet, low"])
+        self.assertEqual([row["verdict"] for row in rows], ["topples", "topples", "rocks", "stands"])
+        self.assertAlmostEqual(float(rows[2]["topples_from"]), 0.903473050, delta=1e-4)
+        self.assertEqual(rows[0]["peak_of_alpha"], "")  # infinite
+
+    def test_without_a_strength_gives_no_verdict(self):
+        self.write_table(TABLE)
+        rows = self.rows("--period", "0.5")
+        for row in rows.values():
+            self.assertIsNone(row["verdict"])
+            self.assertIsNone(row["share_toppling"])
+
+    def test_says_what_slides(self):
+        self.write_table("name,width,height,friction\nvase,0.18,0.45,0.2\nstatue,0.6,1.8,0.45\n")
+        rows = self.rows("--period", "0.5", "--pga", "1.9", "--pga-max", "2")
+        self.assertEqual(rows["vase"]["verdict"], "slides")
+        self.assertAlmostEqual(rows["vase"]["slides_from"], 0.2, places=12)
+        self.assertGreater(rows["vase"]["slide"], 0.1)
+        self.assertIsNone(rows["vase"]["lifts_from"])
+        self.assertEqual(rows["statue"]["verdict"], "topples")  # which would stand if it could not slip
+        self.assertAlmostEqual(rows["statue"]["topples_from"], 0.903568714, delta=1e-4)
+
+    def test_refuses_what_it_cannot_use(self):
+        self.write_table(TABLE)
+        for options, code, words in (
+                (["nothing.csv", "--period", "0.5"], 65, ["nothing.csv", "No such file"]),
+                (["objects.csv"], 2, ["the ground motion is missing", "--period"]),
+                (["objects.csv", "--period", "-1"], 2, ["--period"]),
+                (["objects.csv", "--period", "0.5", "--set", "plane.pga=1"], 2, ["keys of [scene]"]),
+                (["objects.csv", "--period", "0.5", "--pga", "0.4", "--csv", "no/a.csv"], 74, ["no"]),
+                (["objects.csv", "--period", "0.5", "--csv", "objects.csv"], 74, ["is not a table of answers"])):
+            with self.subTest(options=options):
+                self.assert_exit(self.overturn("assess", *options), code, *words)
+        self.assertEqual((self.folder / "objects.csv").read_text(), TABLE)
+        self.write_table("name,width,height\nvase,0.18,-0.45\n")
+        self.assert_exit(self.overturn("assess", "objects.csv", "--period", "0.5"), 65, "objects.csv", "height")
+
+
+if __name__ == "__main__":
+    unittest.main()
