@@ -4,7 +4,10 @@ Requires OVERTURN (the binary) in the environment.
 """
 
 import csv
+import os
+import re
 import shutil
+import subprocess
 import unittest
 
 import h5py
@@ -13,7 +16,7 @@ import xarray
 from matplotlib import colors, pyplot
 from plot_spectrum_test import F_MINUS, S, U0_MINUS, add_coordinate, shares, where
 from recorded_spectra_test import Recorded
-from tool import JOBS  # first: adds the package to the path
+from tool import JOBS, InOneFolder  # first: adds the package to the path
 import overturn
 from overturn.overlay import draw_boundary, open_boundary
 from overturn.plot import boundaries, histories
@@ -289,6 +292,34 @@ class TestAPhysicalHistory(Sized):
                 words = histories.describe(file)
                 self.assertEqual("period" in words, settings == self.AT)
                 self.assertEqual("omega_p" in words, settings != self.AT)
+
+
+class TestAPhysicalHistoryOfABlockThatSlips(InOneFolder):
+    TOOL = "plot_history"
+
+    def history(self, *options, record=None):
+        motion = ("--record", record, "--pga=2.5") if record else ("--period=0.5", "--pga=1.9")
+        subprocess.run([os.environ["OVERTURN"], "topple", "--width=0.6", "--height=1.8", "--friction=0.45", *motion, *options,
+                        "--history", "slip.h5"], cwd=self.folder, check=True, capture_output=True)
+        with open_history(self.folder / "slip.h5") as file:
+            return histories.History(file, 0, np.inf, "physical"), file["slide"][:]
+
+    def test_has_a_unit_in_every_panel_but_that_of_a_ratio(self):
+        for record, count in ((None, 7), (JOBS / "synthetic.AT2", 4)):
+            self.history(record=record)
+            panels = overturn.plot.history(self.folder / "slip.h5", units="physical")
+            labels = [panel.get_ylabel() for panel in panels]
+            self.assertEqual(len(labels), count)
+            self.assertEqual([label for label in labels if not re.search(r"\[(g|mm|degrees.*)\]$", label)],
+                             ["friction  $|H|/N$"])
+            self.assertTrue(panels[-1].get_xlabel().endswith("[s]"))
+            pyplot.close("all")
+
+    def test_has_its_slide_in_mm_also_if_its_sides_differ(self):
+        for options, size in (((), np.hypot(0.3, 0.9)), (("--center-offset=0.05", "--direction=0"), np.hypot(0.25, 0.9))):
+            history, slide = self.history(*options)
+            self.assertGreater(np.abs(slide).max(), 0.01)
+            np.testing.assert_allclose(history.values["slide"], 1000 * size * slide, rtol=1e-14)
 
 
 class TestPhysicalAxesInOtherTools(Sized):

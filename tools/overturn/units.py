@@ -1,9 +1,11 @@
-"""The quantities on the axes of a plane: their values and labels, in the units of the job or in seconds and g."""
+"""Quantities in the units of the job, or in seconds, degrees, metres and g: the axes of a plane, and what a file stores
+of a motion."""
 
 import numpy as np
 from overturn.captions import escaped, is_linear, is_recorded, names_of
 from overturn.motion_words import worded
 from overturn.spectrum_planes import COUNTED, JOB, LOG, PHYSICAL, Axis, scanned_quantity
+from overturn.tables import QUANTITIES
 from overturn.tool import USAGE, ToolError
 
 LABELS = {"frequency": r"pulse frequency  $\omega_p\,/\,p$",
@@ -17,6 +19,13 @@ LABELS = {"frequency": r"pulse frequency  $\omega_p\,/\,p$",
           "slenderness": r"slenderness  $\alpha$ [rad]",
           "restitution": "restitution  $r$",
           "restitution_of_maximum": r"restitution  $r\,/\,r_{max}$"}
+# What files give as multiples of powers of an angle [rad], of p and of R.
+POWERS = {"time": (0, -1, 0), "fall_time": (0, -1, 0), "angle": (1, 0, 0), "velocity": (1, 1, 0),
+          "acceleration": (1, 2, 0), "q": (2, 2, 0), "slide": (0, 0, 1), "slide_peak": (0, 0, 1),
+          "slide_velocity": (0, 1, 1)}
+# Units of what files give as multiples of them.
+MULTIPLES = {"pga": "g", "record_pga": "g", "ground_pga": "g", "flip_pga": "g", "ground": "g", "force_along": "weight",
+             "force_normal": "weight"}
 NEEDING_A_SIZE = {"pulse_period", "pulse_frequency", "pga"}  # under a pulse
 
 
@@ -36,9 +45,51 @@ def expect_size(file, units):
     if units not in (JOB, PHYSICAL):
         raise ToolError(f"units = {units!r} is neither {JOB!r} nor {PHYSICAL!r}.")
     if units == PHYSICAL and not is_recorded(file) and not {"size", "frequency_parameter"} & {*file, *file.attrs}:
-        raise ToolError(f"\"{file.filename}\" cannot be drawn in physical units, because its job does "
+        raise ToolError(f"\"{file.filename}\" cannot be given in physical units, because its job does "
                         "not give the size of the block. Add [block] with width and height to the "
                         "job, or the half diagonal plane.size, in metres, and compute it again.")
+
+
+def size_of(file):
+    """Returns the name of the size R by which lengths are divided: of a block with two sides, that of the side plus."""
+    return "size" if "size" in {*file, *file.attrs} else "size_plus"
+
+
+def factor_of(powers, angle, frequency, length):
+    """Returns the factor of a quantity with these POWERS, of which each is a value of the unit in the file."""
+    return angle**powers[0] * frequency**powers[1] * length**powers[2]
+
+
+def is_own_column(file, name):
+    """Whether a variable is a column of a table of blocks that is no quantity of overturn."""
+    return file[name].attrs.get("long_name") == "column of the table" and name not in QUANTITIES
+
+
+def powers_of(file, name):
+    """Returns the POWERS of a variable; angles of any name are in rad."""
+    if is_own_column(file, name):
+        return 0, 0, 0
+    return POWERS.get(name, (int(file[name].attrs.get("units") == "rad"), 0, 0))
+
+
+def unit_of(file, name, units):
+    """Returns the unit of a variable; "1" if it has none, or is unknown."""
+    powers = powers_of(file, name)
+    if units == JOB or not any(powers):
+        unit = file[name].attrs.get("units", "1")
+        return unit if is_own_column(file, name) else MULTIPLES.get(name, unit)
+    each = zip(("degree", "m", "s"), (powers[0], powers[2], -powers[1]))
+    return " ".join(unit + str(power) * (power != 1) for unit, power in each if power)
+
+
+def physical(file, name, values, property_of):
+    """Returns values of a variable in physical units; property_of(name) returns those of a property of the block at the
+    same points."""
+    powers = powers_of(file, name)
+    if not any(powers):
+        return values
+    return values * factor_of(powers, np.degrees(1), property_of("frequency_parameter") if powers[1] else 1,
+                              property_of(size_of(file)) if powers[2] else 1)
 
 
 def label_of(file, quantity):

@@ -22,7 +22,7 @@ from overturn.spectrum_planes import EQUIVALENTS, JOB, PHYSICAL
 from overturn.tables import RATES, SIZES, STRENGTHS
 from overturn.ticks import name_ticks
 from overturn.tool import ToolError, parse_with_picture, parser_of
-from overturn.units import add_units_argument, expect_size
+from overturn.units import add_units_argument, expect_size, factor_of, powers_of, size_of
 
 EXAMPLE = """\
 example:
@@ -118,10 +118,9 @@ class History:
             raise ToolError(f"\"{file.filename}\" has no data from {start:g}{unit} to "
                             f"{until:g}{unit}.")
         rate = per_time / per_angle
-        factors = {"ground": 1, "friction_demand": 1, "angle": 1 / per_angle, "velocity": rate,
-                   "acceleration": per_time * rate, "q": rate**2,
-                   "slide": 1000 * file.attrs["size"] if units == PHYSICAL and "slide" in file else 1}
-        self.values = {name: factors[name] * file[name][:][shown] for name, _, _ in self.panels}
+        size = 1000 * file.attrs[size_of(file)] if units == PHYSICAL and "slide" in file else 1  # [mm]
+        self.values = {name: factor_of(powers_of(file, name), 1 / per_angle, per_time, size) * file[name][:][shown]
+                       for name, _, _ in self.panels}
         self.slips = slipping(file["mode"][:])[shown] if "mode" in file else np.zeros(len(self.time), bool)
         if has_friction and not self.slips.any():
             self.values["friction_demand"] = of_standing(self.values["friction_demand"], file["angle"][:][shown], sides)
