@@ -5,6 +5,8 @@ Requires OVERTURN (the binary) in the environment.
 
 import csv
 import itertools
+import os
+import subprocess
 import unittest
 
 import h5py
@@ -44,6 +46,12 @@ class Table(InAFolder):
             else:
                 np.testing.assert_array_equal(np.array(column, float), values.ravel(), name)
         return dataset, rows
+
+
+    def slip(self, name, *options):
+        """Writes the history of a block that slips."""
+        subprocess.run([os.environ["OVERTURN"], "topple", "--width=0.6", "--height=1.8", "--friction=0.45", "--period=0.5",
+                        "--pga=1.9", *options, "--history", name], cwd=self.folder, check=True, capture_output=True)
 
 
 class TestATableOfASpectrum(Table):
@@ -157,9 +165,139 @@ class TestATableOfAnotherResult(Table, InOneFolder):
                                    ("wrong_verdicts_by_region_U0+", file["wrong_verdicts_by_region"][:, 3])):
                 np.testing.assert_array_equal([float(row[column]) for row in rows], values)
 
+    def test_of_a_history_of_a_block_that_slips_is_replaced_by_another(self):
+        self.slip("events.h5")
+        for _ in range(2):
+            self.rows("events.h5", "--events")
+
     def test_has_events_only_of_a_history(self):
         self.overturn("run", "spectrum.h5", "plane.frequency.count=2", "plane.amplitude.count=2", job=JOBS / "smoke.toml")
         self.refuses(2, "--events: \"spectrum.h5\" is no history", "spectrum.h5", "--events")
+
+
+class TestATableWithUnits(Table, InOneFolder):
+    """Values are compared with SI quantities that are computed here from width, height and g."""
+
+    PHYSICAL = ("--units", "physical")
+    SLIPPING = """
+        scene.pulse = "one_sine"
+        block = { width = 0.6, height = 1.8, friction = 0.45 }
+        output.fields = ["region", "angle", "velocity", "fall_time", "slide", "slide_peak", "peak", "margin"]
+        [plane]
+        pulse_period = { values = [0.5, 1] }
+        pga = { values = [0.5, 1.9] }
+        restitution_of_maximum = 1
+        """
+    R = np.hypot(0.3, 0.9)
+    P = np.sqrt(3 * 9.81 / (4 * R))
+
+    def columns(self, name, *arguments):
+        """Returns the columns, by name, and the units, by name."""
+        rows = self.rows(name, *arguments)
+        columns, units = {}, {}
+        for head in rows[0]:
+            name, _, unit = head.removesuffix("]").partition(" [")
+            columns[name], units[name] = [row[head] for row in rows], unit
+        return columns, units
+
+    def expect(self, found, stored, factor, name):
+        np.testing.assert_allclose(np.array(found, float), np.ravel(stored) * factor, rtol=1e-14, err_msg=name)
+
+    def test_of_a_history_is_in_seconds_degrees_metres_and_weights(self):
+        degree, p, r = 180 / np.pi, self.P, self.R
+        expected = {"time": (1 / p, "s"), "angle": (degree, "degree"), "velocity": (degree * p, "degree s-1"),
+                    "acceleration": (degree * p**2, "degree s-2"), "q": ((degree * p)**2, "degree2 s-2"),
+                    "ground": (1, "g"), "friction_demand": (1, ""), "slide": (r, "m"), "slide_velocity": (r * p, "m s-1"),
+                    "force_along": (1, "weight"), "force_normal": (1, "weight"), "mode": (1, "")}
+        self.slip("slip.h5")
+        samples, units = self.columns("slip.h5", *self.PHYSICAL)
+        events, units_of_events = self.columns("slip.h5", "--events", *self.PHYSICAL)
+        with h5py.File(self.folder / "slip.h5") as file:
+            self.assertEqual(samples.keys(), expected.keys())
+            for name, (factor, unit) in expected.items():
+                self.assertEqual(units[name], unit)
+                self.expect(samples[name], file[name][:], factor, name)
+                for column in {name, f"{name}_before", f"{name}_after"} & events.keys():
+                    self.assertEqual(units_of_events[column], unit)
+                    self.expect(events[column], file[f"events/{column}"][:], factor, column)
+            self.assertEqual(len(events), 2 + 2 * 10)  # time and kind; mode is not one of an event
+            self.assertEqual({*samples["mode"]}, {"0", "2", "3"})
+        values = {name: np.array(column, float) for name, column in samples.items()}
+        self.assertAlmostEqual(values["ground"].max(), 1.9, places=4)
+        self.assertAlmostEqual(values["angle"].max(), 90)
+        # The trapezoidal rule over these steps of 1 ms is off by 3e-6 m; without p, it would be by 0.08 m.
+        moved = np.sum(np.diff(values["time"]) * (values["slide_velocity"][1:] + values["slide_velocity"][:-1]) / 2)
+        self.assertAlmostEqual(moved, values["slide"][-1], delta=1e-4)
+
+    def test_in_units_of_the_job_has_the_values_of_the_file(self):
+        self.slip("job.h5")
+        columns, units = self.columns("job.h5", "--units", "job")
+        with h5py.File(self.folder / "job.h5") as file:
+            for name, values in columns.items():
+                np.testing.assert_array_equal(np.array(values, float), file[name][:])
+                declared = file[name].attrs.get("units", b"1").decode().replace("1", "", 1)
+                self.assertEqual(units[name], {"ground": "g", "force_along": "weight",
+                                               "force_normal": "weight"}.get(name, declared))
+
+    def test_of_a_block_with_two_sides_has_slides_over_that_of_the_side_plus(self):
+        self.slip("sides.h5", "--center-offset=0.05", "--direction=0")
+        columns, _ = self.columns("sides.h5", *self.PHYSICAL)
+        with h5py.File(self.folder / "sides.h5") as file:
+            self.assertGreater(np.abs(file["slide"][:]).max(), 0.01)
+            self.expect(columns["slide"], file["slide"][:], np.hypot(0.25, 0.9), "slide")
+
+    def test_of_a_spectrum_converts_what_p_and_the_size_scale_and_keeps_codes(self):
+        self.overturn("run", "fields.h5", job=self.SLIPPING)
+        codes = [254, 255, 0, 7]
+        with h5py.File(self.folder / "fields.h5", "r+") as file:
+            file["region"][...] = np.reshape(codes, (2, 2))
+            file["velocity"][0, 0] = np.nan
+            stored = {name: file[name][:] for name in ("angle", "velocity", "fall_time", "slide", "slide_peak", "peak")}
+        self.assertTrue(np.isinf(stored["fall_time"]).any() and np.isfinite(stored["fall_time"]).any())
+        columns, units = self.columns("fields.h5", *self.PHYSICAL)
+        degree = 180 / np.pi
+        for name, factor, unit in (("angle", degree, "degree"), ("velocity", degree * self.P, "degree s-1"),
+                                   ("fall_time", 1 / self.P, "s"), ("slide", self.R, "m"), ("slide_peak", self.R, "m"),
+                                   ("peak", 1, "")):
+            self.expect(columns[name], stored[name], factor, name)
+            self.assertEqual(units[name], unit)
+        self.assertEqual(columns["region"], [str(code) for code in codes])
+        self.assertEqual(columns["velocity"][0], "nan")
+        self.assertAlmostEqual(float(columns["slenderness"][0]), np.degrees(np.arctan(1 / 3)), places=12)
+        self.assertEqual([units[name] for name in ("pga", "pulse_period", "size", "slenderness", "region", "margin")],
+                         ["g", "s", "m", "degree", "", ""])
+
+    def test_converts_each_point_by_its_own_size(self):
+        self.overturn("run", "sizes.h5", "plane.size={values=[0.5,2]}", "plane.scale={values=[1.9,2.5]}",
+                      'output.fields=["region","velocity"]', job=JOBS / "synthetic.toml")
+        columns, _ = self.columns("sizes.h5", *self.PHYSICAL)
+        size = np.array(columns["size"], float)
+        with h5py.File(self.folder / "sizes.h5") as file:
+            self.assertTrue(file["velocity"][:].all())
+            self.expect(columns["velocity"], file["velocity"][:], np.degrees(np.sqrt(3 * 9.81 / (4 * size))), "velocity")
+
+    def test_does_not_convert_a_column_of_blocks_that_has_the_name_of_a_quantity(self):
+        (self.folder / "list.csv").write_text("time,width,height,restitution_of_maximum,pga,pulse_period\n"
+                                              "4,0.5,1.5,0.9,0.5,0.4\n1990,0.5,1.6,0.9,0.5,0.4\n")
+        self.overturn("run", "list.h5", job='scene.pulse="one_sine"\nblocks.table="list.csv"\n')
+        columns, units = self.columns("list.h5", *self.PHYSICAL)
+        self.assertEqual((columns["time"], units["time"]), (["4", "1990"], ""))
+
+    def test_of_a_boundary_or_study_has_units(self):
+        smoke = ("plane.frequency.count=2", "plane.amplitude.count=4")
+        self.overturn("boundary", "boundary.h5", *smoke, job=JOBS / "smoke.toml")
+        columns, units = self.columns("boundary.h5", *self.PHYSICAL)
+        self.assertEqual([units[name] for name in ("flip_pga", "flip_amplitude", "slenderness")], ["g", "", "degree"])
+        self.assertAlmostEqual(float(columns["slenderness"][0]), np.degrees(np.arctan(1 / 5.67)), places=12)
+        self.overturn("accuracy", "study.h5", *smoke, job=JOBS / "smoke.toml")
+        _, units = self.columns("study.h5", "--units", "job")
+        self.assertEqual([units[name] for name in ("seconds_per_point", "angle_error_0.99", "steps")], ["s", "rad", ""])
+        self.refuses(2, "--units physical: \"study.h5\" is of blocks of all sizes", "study.h5", *self.PHYSICAL)
+
+    def test_needs_the_size_of_the_block_for_physical_ones(self):
+        self.overturn("run", "sizeless.h5", "plane.frequency.count=2", "plane.amplitude.count=2", "block={}",
+                      "plane.slenderness=0.3", job=JOBS / "smoke.toml")
+        self.refuses(74, "does not give the size of the block", "sizeless.h5", *self.PHYSICAL)
 
 
 if __name__ == "__main__":

@@ -12,8 +12,9 @@ from overturn.choice import add_choice_arguments, chosen
 from overturn.motion_words import VARIABLES, column_named
 from overturn.output_file import BEGINNING, new_file
 from overturn.result_file import HISTORY, SPECTRUM, STUDY, damage_reported, open_result
-from overturn.spectrum_planes import COUNTED
+from overturn.spectrum_planes import COUNTED, JOB, PHYSICAL
 from overturn.tool import USAGE, ToolError, parse_with_output, parser_of
+from overturn.units import expect_size, is_own_column, physical, unit_of
 
 EXAMPLE = """\
 example:
@@ -23,7 +24,9 @@ example:
 Columns: the dimensions, with their names in the file (such as frequency and amplitude); all other
 coordinates, such as names of blocks and records; every field of the file, with the codes of
 docs/results.md. Under the motion of a floor, pga is called pfa. Rows: the first column varies
-fastest. Numbers have enough digits to be read back exactly.
+fastest. Numbers have enough digits to be read back exactly. What is not known is nan, undecided
+points have region 254, and points that are not computed region 255. --units adds the unit of each
+column to its name.
 To write a part of the points only, choose an index along some dimensions:
   tools/to_csv four_axes.h5 --slenderness 0 --restitution 2 -o third.csv
 
@@ -31,18 +34,20 @@ A boundary has a row for each flip; a line without a flip has one row, whose reg
 the first amplitude. A history has a row for each sample or, with --events, for each event. An
 accuracy study has a row for each setting; what it gives for several quantiles, distances or regions
 has a column for each:
+  tools/to_csv history.h5 --units physical         # times in s, angles in degrees, slides in m
   tools/to_csv history.h5 --events -o events.csv"""
 
 REGION = "region"  # a column of every table of a spectrum
 # The names of all columns of fields that a table of a spectrum may have; see docs/results.md.
 FIELDS = {*tables.FIELDS, "evaluated"}
+OF_MOTION = {"acceleration", "angle", "force_along", "force_normal", "friction_demand", "ground", "mode", "q", "slide",
+             "slide_velocity", "velocity"}
 # The last columns of every kind of table, and one that it always has.
 LAST = ((FIELDS, REGION), ({"flip_amplitude", "flip_pga", "region_below", "region_above"}, "flip_amplitude"),
-        ({"acceleration", "angle", "friction_demand", "ground", "q", "velocity"}, "angle"),
-        ({f"{name}_{side}" for side in ("before", "after")
-          for name in ("acceleration", "angle", "friction_demand", "ground", "q", "velocity")}, "angle_after"))
+        (OF_MOTION, "angle"), ({f"{name}_{side}" for side in ("before", "after") for name in OF_MOTION}, "angle_after"))
 FIRST = {*tables.QUANTITIES, *COUNTED, "crossing", "time", "setting", "frequency_parameter_minus"}
 NUMBER = re.compile("[-+.0-9einfa]*")  # inf and nan, too
+UNIT = re.compile(r" \[[^]]*\]$")
 
 
 def dimensions_of(file):
@@ -82,22 +87,30 @@ def values_at(file, name, dimensions, part):
 def are_integers(file, name):
     """Whether a column of numbers of type double is written as integers: numbers of blocks, records and flips, and
     columns of a table of blocks that are no quantities of overturn."""
-    variable = file[name]
     if name in (*COUNTED, "crossing"):
         return True
-    return (variable.attrs.get("long_name") == "column of the table" and name not in FIRST
-            and variable.dtype.kind == "f" and bool((variable[:] % 1 == 0).all()))
+    return is_own_column(file, name) and file[name].dtype.kind == "f" and bool((file[name][:] % 1 == 0).all())
 
 
-def rows_of(file, choices):
+def head_of(file, variable, units, column=None):
+    """Returns the name of the column of a variable, with its unit if units are given."""
+    unit = unit_of(file, variable, units) if units and variable in file else "1"
+    return column_named(file.attrs, column or variable) + f" [{unit}]" * (unit != "1")
+
+
+def rows_of(file, choices, units):
     dimensions = dimensions_of(file)
     others = [name for name in file.coordinates if name not in dimensions and {*file[name].dimensions} <= {*dimensions}]
     names = [*reversed(dimensions), *others, *fields_of(file)]
-    yield [column_named(file.attrs, name) for name in names]
+    yield [head_of(file, name, units) for name in names]
     integers = {name for name in [*dimensions, *others] if are_integers(file, name)}
     for part in parts_of(file, dimensions, choices):
         with damage_reported(file.filename):
+            def property_of(name):
+                return values_at(file, name, dimensions, part) if name in file else file.attrs[name]
             columns = [values_at(file, name, dimensions, part) for name in names]
+            if units == PHYSICAL:
+                columns = [physical(file, name, column, property_of) for name, column in zip(names, columns)]
         kept = np.ones(columns[0].shape, bool)
         if "crossing" in dimensions:  # beyond the last flip there is nothing, but each line has a row
             columns_of = dict(zip(names, columns))
@@ -106,12 +119,13 @@ def rows_of(file, choices):
                          for name, column in zip(names, columns)))
 
 
-def rows_of_study(file):
+def rows_of_study(file, units):
     """A row for each setting; what varies along a further dimension has a column for each of its values."""
     columns = {"setting": np.arange(file.sizes["setting"])}
 
-    def add(name, values):
-        columns[name] = values.astype(int) if (values % 1 == 0).all() else values
+    def add(variable, values, label=""):
+        head = head_of(file, variable, units, variable + label)
+        columns[head] = values.astype(int) if (values % 1 == 0).all() else values
     for name, variable in file.items():
         further = [each for each in variable.dimensions if each != "setting"]
         if name in file.coordinates or not {"setting"} & {*variable.dimensions}:
@@ -119,7 +133,7 @@ def rows_of_study(file):
         if not further:
             add(name, variable[:])
         for place, label in enumerate(labels_of(file, further[0]) if further else ()):
-            add(f"{name}_{label}", variable[:][:, place])
+            add(name, variable[:][:, place], f"_{label}")
     yield columns.keys()
     yield from zip(*(column.tolist() for column in columns.values()))
 
@@ -131,11 +145,14 @@ def labels_of(file, name):
     return [f"{value:g}" for value in file[name][:]]
 
 
-def rows_of_events(file):
+def rows_of_events(file, units):
     events = file.events()
-    columns = {"time": events["time"], "kind": events["kind"], **events}
-    yield [column_named(file.attrs, name) for name in columns]
-    yield from zip(*(column.tolist() for column in columns.values()))
+    variables = {name: name.removesuffix("_before").removesuffix("_after") for name in ("time", "kind", *events)}
+    yield [head_of(file, variable, units, name) for name, variable in variables.items()]
+    if units == PHYSICAL:
+        events |= {name: physical(file, variable, events[name], file.attrs.get)
+                   for name, variable in variables.items() if variable in file}
+    yield from zip(*(events[name].tolist() for name in variables))
 
 
 def is_own(beginning):
@@ -146,7 +163,7 @@ def is_own(beginning):
     except csv.Error:
         return False
     rows = [row for row in (rows[:-1] if len(beginning) >= BEGINNING else rows) if row]
-    header = [VARIABLES.get(name, name) for name in rows[0]] if rows else [""]
+    header = [VARIABLES.get(name, name) for name in (UNIT.sub("", name) for name in rows[0])] if rows else [""]
     if header[0] not in FIRST:
         return False
     if header[0] == "setting":
@@ -170,17 +187,26 @@ def read_arguments(argv):
     parser = parser_of("to_csv", __doc__, EXAMPLE, "overturn run, boundary, history or accuracy")
     add_choice_arguments(parser)
     parser.add_argument("--events", action="store_true", help="of a history: write its events, not its samples")
+    parser.add_argument("--units", choices=(JOB, PHYSICAL),
+                        help="add the unit of each column to its name, as in \"time [s]\". job: the values are those of "
+                             "the file; physical: times are in s, angles in degrees, slides in m, and the job must give "
+                             "the size of the block")
     return parse_with_output(parser, argv, "FILE.csv", "the table")
 
 
 def table_of(file, arguments):
     """Returns the rows of the table, the names of its columns first."""
     kind = file.text("kind")
+    if arguments.events and kind != HISTORY:
+        raise ToolError(f"--events: \"{file.filename}\" is no history. Omit it.", USAGE)
+    if kind == STUDY and arguments.units == PHYSICAL:
+        raise ToolError(f"--units physical: \"{file.filename}\" is of blocks of all sizes. Omit it.", USAGE)
+    expect_size(file, arguments.units or JOB)
     if arguments.events:
-        if kind != HISTORY:
-            raise ToolError(f"--events: \"{file.filename}\" is no history. Omit it.", USAGE)
-        return rows_of_events(file)
-    return rows_of_study(file) if kind == STUDY else rows_of(file, chosen(file, arguments))
+        return rows_of_events(file, arguments.units)
+    if kind == STUDY:
+        return rows_of_study(file, arguments.units)
+    return rows_of(file, chosen(file, arguments), arguments.units)
 
 
 def main(argv=None):
