@@ -171,5 +171,51 @@ class TestACurveRefused(Curve):
         self.refuses(2, "friction_demand = 35.0 is not a number above 0", "region.h5", "--friction-demand", "35")
 
 
+class TestATableOfToCsv(Curve):
+    OPTIONS = ("--limit", "0.4", "--bins", "7", "--samples", "30", "--seed", "4")
+
+    def tables(self, *command, tool):
+        """Returns the names and the contents of the tables that a command writes."""
+        before = {*self.folder.iterdir()}
+        self.output_of("result.h5", *command, *self.OPTIONS, tool=tool)
+        new = {path.name: path.read_text() for path in {*self.folder.iterdir()} - before if path.suffix == ".csv"}
+        for name in new:
+            (self.folder / name).unlink()
+        return new
+
+    def test_is_that_of_plot_fragility_with_the_same_options(self):
+        for measures, by, count in ((["pga"], (), 1), (["pga", "pgv"], (), 2), (["pgv"], ("--by", "slenderness"), 3)):
+            tables = self.tables("--fragility", *measures, *by, "-o", "t.csv", tool="to_csv")
+            self.assertEqual(len(tables), count)
+            self.assertEqual(tables, self.tables("--im", *measures, *by, "--csv", "t.csv", tool="plot_fragility"))
+            for table in tables.values():
+                self.assertRegex(table, r"# peak above 0.4 against pg[av] \[(g|m s-1)\]")
+                self.assertEqual(sum(not line.startswith("#") for line in table.splitlines()), 1 + 7)
+
+    def test_has_the_name_of_the_result_and_no_undecided_point_among_the_safe(self):
+        undecided, samples = 254, ("--samples", "2")
+        shutil.copy(self.folder / "result.h5", self.folder / "holes.h5")
+        with h5py.File(self.folder / "holes.h5", "r+") as file:
+            file["region"][0] = undecided
+            points = file["region"].size
+            left = points - file["region"][0].size
+        self.output_of("holes.h5", "--fragility", "pga", *samples, tool="to_csv")
+        table = (self.folder / "holes.csv").read_text()
+        self.assertRegex(table, f" of {left} points with a verdict.*; {points - left} undecided")
+        rows = list(csv.DictReader(line for line in table.splitlines() if not line.startswith("#")))
+        self.assertEqual(sum(int(row["points"]) for row in rows), left)
+        self.assertGreater(sum(int(row["without_verdict"]) for row in rows), 0)
+
+    def test_is_refused_for_a_choice_of_points_and_for_results_without_records(self):
+        for words, name in ((("--slenderness", "0"), "slenderness"), (("--index", "size=0"), "index"),
+                            (("--units", "job"), "units"), (("--events",), "events")):
+            self.refuses(2, f"--{name} is not for fragility curves", "result.h5", *words, "--fragility", "pga", tool="to_csv")
+        for words in (("--bins", "3"), ("--by", "size"), ("--friction-demand", "0.4")):
+            self.refuses(2, f"{words[0]} is for --fragility MEASURE only", "result.h5", *words, tool="to_csv")
+        self.overturn("run", "pulse.h5", job='scene.pulse="one_sine"\n[plane]\nfrequency=3\namplitude=2\nslenderness=0.2\n'
+                                             "restitution=0.8\n")
+        self.refuses(2, "this result has no scale of a record", "pulse.h5", "--fragility", "pga", tool="to_csv")
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,5 +1,5 @@
 """Writes a result file as CSV, for use without HDF5: one row per point of a spectrum, flip of a boundary, sample of a
-history or setting of an accuracy study."""
+history or setting of an accuracy study; or per bin of a fragility curve."""
 
 import csv
 import itertools
@@ -8,10 +8,11 @@ import re
 import numpy as np
 
 from overturn import tables
-from overturn.choice import add_choice_arguments, chosen
+from overturn.choice import OPTIONS, add_choice_arguments, chosen
 from overturn.motion_words import VARIABLES, column_named
 from overturn.output_file import BEGINNING, new_file
 from overturn.result_file import HISTORY, SPECTRUM, STUDY, damage_reported, open_result
+from overturn.result_curves import add_curve_arguments, add_group_argument, curves_of, open_dataset, write_csv
 from overturn.spectrum_planes import COUNTED, JOB, PHYSICAL
 from overturn.tool import USAGE, ToolError, parse_with_output, parser_of
 from overturn.units import expect_size, is_own_column, physical, unit_of
@@ -35,7 +36,11 @@ the first amplitude. A history has a row for each sample or, with --events, for 
 accuracy study has a row for each setting; what it gives for several quantiles, distances or regions
 has a column for each:
   tools/to_csv history.h5 --units physical         # times in s, angles in degrees, slides in m
-  tools/to_csv history.h5 --events -o events.csv"""
+  tools/to_csv history.h5 --events -o events.csv
+
+The table of a fragility curve is that of plot_fragility --csv: below its summary, in lines that begin
+with #, a row for each bin.
+  tools/to_csv fragility.h5 --fragility pga --by size    # writes fragility_1.csv, ...; see plot_fragility"""
 
 REGION = "region"  # a column of every table of a spectrum
 # The names of all columns of fields that a table of a spectrum may have; see docs/results.md.
@@ -47,6 +52,7 @@ LAST = ((FIELDS, REGION), ({"flip_amplitude", "flip_pga", "region_below", "regio
         (OF_MOTION, "angle"), ({f"{name}_{side}" for side in ("before", "after") for name in OF_MOTION}, "angle_after"))
 FIRST = {*tables.QUANTITIES, *COUNTED, "crossing", "time", "setting", "frequency_parameter_minus"}
 NUMBER = re.compile("[-+.0-9einfa]*")  # inf and nan, too
+OF_CURVES = {"by", "limit", "friction_demand", "bins", "samples", "seed"}
 UNIT = re.compile(r" \[[^]]*\]$")
 
 
@@ -191,7 +197,29 @@ def read_arguments(argv):
                         help="add the unit of each column to its name, as in \"time [s]\". job: the values are those of "
                              "the file; physical: times are in s, angles in degrees, slides in m, and the job must give "
                              "the size of the block")
-    return parse_with_output(parser, argv, "FILE.csv", "the table")
+    curve = parser.add_argument_group("fragility curves of a result under records")
+    curve.add_argument("--fragility", metavar="MEASURE", nargs="+",
+                       help="write the curves against these measures, not the points: as --im of plot_fragility")
+    add_group_argument(curve)
+    add_curve_arguments(curve, bins=10)
+    arguments = parse_with_output(parser, argv, "FILE.csv", "the table; OUT_MEASURE.csv and OUT_1.csv, OUT_2.csv, ... of "
+                                                            "several measures and groups")
+    given = {name for name, value in vars(arguments).items() if value != parser.get_default(name)}
+    if arguments.fragility and (others := given & {"events", "units", "index", *OPTIONS}):
+        parser.error(f"--{min(others)} is not for fragility curves, which are of all points. overturn.fragility() in Python "
+                     "takes a part of a result")
+    if not arguments.fragility and (others := given & OF_CURVES):
+        parser.error(f"--{min(others).replace('_', '-')} is for --fragility MEASURE only")
+    return arguments
+
+
+def write_curves(arguments):
+    import scipy  # noqa: F401 (for overturn.fragility: if it is missing, fail before anything is read)
+    with open_dataset(arguments.file) as dataset:
+        by_measure = [curves_of(dataset, im, arguments) for im in arguments.fragility]
+    for curves in by_measure:
+        for number, curve in enumerate(curves, 1):
+            write_csv(curve, number, arguments.output, len(by_measure) > 1)
 
 
 def table_of(file, arguments):
@@ -211,6 +239,9 @@ def table_of(file, arguments):
 
 def main(argv=None):
     arguments = read_arguments(argv)
+    if arguments.fragility:
+        write_curves(arguments)
+        return
     with open_result(arguments.file) as file:
         file.expect_fields([REGION] * (file.text("kind") == SPECTRUM))
         write(table_of(file, arguments), arguments.output)

@@ -1,9 +1,6 @@
 """Plots fragility curves of a result under records: the fraction of the blocks that overturn against
 intensity measures, with lognormal fits and their confidence."""
 
-import argparse
-import contextlib
-import dataclasses
 import itertools
 import pathlib
 import textwrap
@@ -12,12 +9,13 @@ import numpy as np
 import overturn
 from matplotlib import pyplot
 from matplotlib.lines import Line2D
-from overturn.block_groups import counted, groups_of
+from overturn.block_groups import counted
 from overturn.captions import escaped, plain, shortened
 from overturn.output_file import save
 from overturn.plot.headings import LINE, POINTS, wrapped
+from overturn.result_curves import add_curve_arguments, add_group_argument, curves_of, open_dataset, write_csv
 from overturn.ticks import name_ticks
-from overturn.tool import USAGE, Renamed, ToolError, parse_with_picture, parser_of
+from overturn.tool import parse_with_picture, parser_of
 
 EXAMPLE = """\
 example:
@@ -152,54 +150,17 @@ def draw_fit(ax, curve, colour, line, count):
     ax.plot(curve.value, curve.probability, line, color=colour, linewidth=2, label=f"lognormal: {fit_text(curve)}")
 
 
-def add_curve_arguments(parser, bins):
-    """Adds the arguments of a curve, see compute_curve()."""
-    parser.add_argument("--limit", type=float, metavar="PEAK",
-                        help="count the points whose field peak, the largest |theta| / alpha, is above PEAK, at "
-                             "most 1; otherwise those that overturn")
-    parser.add_argument("--friction", action=Renamed, const="--friction-demand", help=argparse.SUPPRESS)
-    parser.add_argument("--friction-demand", type=float, metavar="MU",
-                        help="friction coefficient between block and ground: points whose field friction_demand is above MU "
-                             "have no verdict")
-    parser.add_argument("--bins", type=int, metavar="N", default=bins,
-                        help="number of bins, which do not change the fit (default: %(default)s)")
-    parser.add_argument("--samples", type=int, metavar="N", default=1000,
-                        help="samples of the bootstrap (default: %(default)s)")
-    parser.add_argument("--seed", type=int, metavar="N", default=1, help="of the bootstrap (default: %(default)s)")
-
-
-def compute_curve(dataset, im, arguments, **further):
-    return overturn.fragility(dataset, im, arguments.limit, friction_demand=arguments.friction_demand, bins=arguments.bins,
-                              samples=arguments.samples, seed=arguments.seed, **further)
-
-
 def read_arguments(argv):
     parser = parser_of("plot_fragility", __doc__, EXAMPLE, "overturn run under records")
     parser.add_argument("--im", metavar="MEASURE", nargs="+", default=["pgv"],
                         help="intensity measures: pga, pgv, arias_intensity or significant_duration; under motions "
                              "of a floor, those of the floor, and ground_pga if it is known (default: pgv)")
-    parser.add_argument("--by", metavar="COLUMN",
-                        help="a curve for each value of a column of the table of blocks, or of an axis such as "
-                             "size; of more than 6 numbers, for each quarter of the blocks")
+    add_group_argument(parser)
     add_curve_arguments(parser, bins=10)
     parser.add_argument("--csv", metavar="OUT.csv",
                         help="also write the numbers of each bin; OUT_MEASURE.csv if there are several measures, "
                              "with --by OUT_1.csv, OUT_2.csv, ... of the groups")
     return parse_with_picture(parser, argv, "FILE_fragility.png")
-
-
-@contextlib.contextmanager
-def open_dataset(path):
-    """Opens a result for a tool, with overturn.open(), and reports that a curve cannot be computed from it."""
-    try:
-        dataset = overturn.open(path)
-    except (OSError, ValueError) as error:
-        raise ToolError(str(error)) from error
-    with dataset:
-        try:
-            yield dataset
-        except ValueError as error:
-            raise ToolError(f"\"{path}\": {error}", USAGE) from error
 
 
 def compute(arguments):
@@ -209,26 +170,9 @@ def compute(arguments):
         return title_of(dataset, arguments), [curves_of(dataset, im, arguments) for im in arguments.im]
 
 
-def curves_of(dataset, im, arguments):
-    if arguments.by is None:
-        return [compute_curve(dataset, im, arguments)]
-    from overturn.fragility_curve import expect_records  # needs SciPy
-    expect_records(dataset)
-    return [dataclasses.replace(compute_curve(blocks, im, arguments), group=group)
-            for group, blocks in groups_of(dataset, arguments.by).items()]
-
-
 def title_of(dataset, arguments):
     name = dataset.attrs.get("title") or f"Fragility: {pathlib.Path(arguments.file).name}"
     return name + f", by {arguments.by}".replace("_", " ") * bool(arguments.by)
-
-
-def write_csv(curve, number, arguments):
-    path = pathlib.Path(arguments.csv)
-    words = [curve.im] * (len(arguments.im) > 1) + [str(number)] * bool(curve.group)
-    path = path.with_name("_".join([path.stem, *words]) + path.suffix)
-    curve.to_csv(path)
-    print(path)
 
 
 def main(argv=None):
@@ -238,7 +182,7 @@ def main(argv=None):
         for number, curve in enumerate(curves, 1):
             print(curve.summary())
             if arguments.csv:
-                write_csv(curve, number, arguments)
+                write_csv(curve, number, arguments.csv, len(arguments.im) > 1)
     figure, panels = pyplot.subplots(1, len(by_measure), squeeze=False, sharey=True, layout="constrained",
                                      figsize=(5.5 * len(by_measure), 5.2))
     make_room([draw_panel(panel, curves) for panel, curves in zip(panels.flat, by_measure)])

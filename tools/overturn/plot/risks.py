@@ -11,9 +11,9 @@ from matplotlib import pyplot
 from overturn.captions import escaped, plain, shortened
 from overturn.motion_words import variable_of_ground
 from overturn.output_file import save
-from overturn.plot.fragility_curves import (BAND, COLOURS, NAMES, POINT, UNITS, add_curve_arguments, compute_curve,
-                                             draw_bins, open_dataset)
+from overturn.plot.fragility_curves import BAND, COLOURS, NAMES, POINT, UNITS, draw_bins
 from overturn.plot.headings import wrapped
+from overturn.result_curves import add_curve_arguments, compute_curve, open_dataset
 from overturn.ticks import name_ticks
 from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
 

@@ -1,0 +1,70 @@
+"""Fragility curves of a result file, by the arguments of a tool."""
+
+import argparse
+import contextlib
+import dataclasses
+import pathlib
+
+import overturn
+from overturn.block_groups import groups_of
+from overturn.tool import USAGE, Renamed, ToolError
+
+
+def add_group_argument(parser):
+    parser.add_argument("--by", metavar="COLUMN",
+                        help="a curve for each value of a column of the table of blocks, or of an axis such as "
+                             "size; of more than 6 numbers, for each quarter of the blocks")
+
+
+def add_curve_arguments(parser, bins):
+    """Adds the arguments of a curve, see compute_curve()."""
+    parser.add_argument("--limit", type=float, metavar="PEAK",
+                        help="count the points whose field peak, the largest |theta| / alpha, is above PEAK, at "
+                             "most 1; otherwise those that overturn")
+    parser.add_argument("--friction", action=Renamed, const="--friction-demand", help=argparse.SUPPRESS)
+    parser.add_argument("--friction-demand", type=float, metavar="MU",
+                        help="friction coefficient between block and ground: points whose field friction_demand is above MU "
+                             "have no verdict")
+    parser.add_argument("--bins", type=int, metavar="N", default=bins,
+                        help="number of bins, which do not change the fit (default: %(default)s)")
+    parser.add_argument("--samples", type=int, metavar="N", default=1000,
+                        help="samples of the bootstrap (default: %(default)s)")
+    parser.add_argument("--seed", type=int, metavar="N", default=1, help="of the bootstrap (default: %(default)s)")
+
+
+def compute_curve(dataset, im, arguments, **further):
+    return overturn.fragility(dataset, im, arguments.limit, friction_demand=arguments.friction_demand, bins=arguments.bins,
+                              samples=arguments.samples, seed=arguments.seed, **further)
+
+
+@contextlib.contextmanager
+def open_dataset(path):
+    """Opens a result for a tool, with overturn.open(), and reports that a curve cannot be computed from it."""
+    try:
+        dataset = overturn.open(path)
+    except (OSError, ValueError) as error:
+        raise ToolError(str(error)) from error
+    with dataset:
+        try:
+            yield dataset
+        except ValueError as error:
+            raise ToolError(f"\"{path}\": {error}", USAGE) from error
+
+
+def curves_of(dataset, im, arguments):
+    if arguments.by is None:
+        return [compute_curve(dataset, im, arguments)]
+    from overturn.fragility_curve import expect_records  # needs SciPy
+    expect_records(dataset)
+    return [dataclasses.replace(compute_curve(blocks, im, arguments), group=group)
+            for group, blocks in groups_of(dataset, arguments.by).items()]
+
+
+def write_csv(curve, number, path, is_of_several_measures):
+    """Writes the table of a curve. The measure, and the number of the group of blocks, are added to the name of the file
+    if there are several."""
+    path = pathlib.Path(path)
+    words = [curve.im] * is_of_several_measures + [str(number)] * bool(curve.group)
+    path = path.with_name("_".join([path.stem, *words]) + path.suffix)
+    curve.to_csv(path)
+    print(path)
