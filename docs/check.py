@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Builds the documentation as a site and checks links and anchors, the API of the headers and the
-spelling; runs every code block of sh, python and toml, and the notebooks, and compares what they print
-with the documentation. Called by tools/check docs."""
+spelling; runs every code block of sh, python, toml and, where R is installed, r, and the notebooks, and
+compares what they print with the documentation. Called by tools/check docs."""
 
 import argparse
 import json
@@ -18,6 +18,7 @@ BUILT = CHECKOUT / "build-docs"
 PAGES = ["README.md", "CONTRIBUTING.md", "jobs/README.md", *sorted(
     str(page.relative_to(CHECKOUT)) for page in (CHECKOUT / "docs").glob("*.md"))]
 
+LANGUAGES = ("sh", "python", "toml", "r")
 # Blocks that are not run: the page, the beginning of the block, and the reason.
 NOT_RUN = {
     ("README.md", "tools/quickstart"): "installs, builds and tests, as CI does",
@@ -53,6 +54,8 @@ def run_block(language, text, folder, python):
         command = [CHECKOUT / "build/overturn", "check", "block.toml"]
     elif language == "python":
         command = [python, "-c", text]
+    elif language == "r":
+        command = ["Rscript", "--vanilla", "-e", text]
     else:
         command = ["bash", "-euo", "pipefail", "-c", text]
     environment = dict(os.environ, MPLBACKEND="Agg", OMPI_ALLOW_RUN_AS_ROOT="1",
@@ -71,10 +74,14 @@ def run_blocks(python):
         shutil.copytree(CHECKOUT, folder, ignore=shutil.ignore_patterns(".git", "build*", "results", "gallery"))
         (folder / "build").symlink_to(CHECKOUT / "build")
         for language, line, text in blocks_of(page):
-            if language == "printed":
+            if language == "printed" and result:
                 failed += [f"{page}:{line}: not printed by the previous block: {missing}"
                            for missing in not_printed(text, result.stdout)]
-            if language not in ("sh", "python", "toml"):
+            if language not in LANGUAGES:
+                continue
+            if language == "r" and not shutil.which("Rscript"):
+                print(f"{page}:{line}: skipped, because R is not installed")
+                result = None
                 continue
             exception = next((key for key in NOT_RUN if key[0] == page and text.startswith(key[1])), None)
             if exception:
