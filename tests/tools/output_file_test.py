@@ -53,8 +53,8 @@ class TestAWrittenFile(InAFolder):
                   b"pulse_period,pga,width,height,restitution_of_maximum\n0.5,0.4,0.6,1.8,0.9\n",
                   b"frequency,amplitude,region,remark\n1,2,0,precious\n", b"region,width,height\nItaly,0.4,1.5\n",
                   b"region,width\n1,0.4\n", b"width,region\n0.4,1\n0.5,see p. 7\n", b"width,region\n0.4,1,2\n",
-                  b"RECORD OF A STATION\n", b"<?xml version='1.0'?><other/>", draw.randbytes(100),
-                  draw.randbytes(10_000)]
+                  b"time [s],angle [degree],velocity [degree s-1]\n0,1,2\n", b"RECORD OF A STATION\n",
+                  b"<?xml version='1.0'?><other/>", draw.randbytes(100), draw.randbytes(10_000)]
         for *words, pattern in self.WRITERS:
             for content in others if words[0] == "to_csv" else draw.sample(others, 1):
                 path = pattern.format("taken")

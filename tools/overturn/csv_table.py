@@ -49,7 +49,7 @@ OF_MOTION = {"acceleration", "angle", "force_along", "force_normal", "friction_d
              "slide_velocity", "velocity"}
 # The last columns of every kind of table, and one that it always has.
 LAST = ((FIELDS, REGION), ({"flip_amplitude", "flip_pga", "region_below", "region_above"}, "flip_amplitude"),
-        (OF_MOTION, "angle"), ({f"{name}_{side}" for side in ("before", "after") for name in OF_MOTION}, "angle_after"))
+        (OF_MOTION, "q"), ({f"{name}_{side}" for side in ("before", "after") for name in OF_MOTION}, "q_after"))
 FIRST = {*tables.QUANTITIES, *COUNTED, "crossing", "time", "setting", "frequency_parameter_minus"}
 NUMBER = re.compile("[-+.0-9einfa]*")  # inf and nan, too
 OF_CURVES = {"by", "limit", "friction_demand", "bins", "samples", "seed"}
@@ -156,7 +156,7 @@ def rows_of_events(file, units):
     variables = {name: name.removesuffix("_before").removesuffix("_after") for name in ("time", "kind", *events)}
     yield [head_of(file, variable, units, name) for name, variable in variables.items()]
     if units == PHYSICAL:
-        events |= {name: physical(file, variable, events[name], file.attrs.get)
+        events |= {name: physical(file, variable, events[name], file.attrs.__getitem__)
                    for name, variable in variables.items() if variable in file}
     yield from zip(*(events[name].tolist() for name in variables))
 
