@@ -16,6 +16,7 @@
 #include "overturn/text/table.hpp"
 
 #include <algorithm>
+#include <map>
 #include <thread>
 
 namespace overturn {
@@ -35,10 +36,30 @@ void expect_consistent(const AssessOptions& options)
     expect_keys_of_scene(options.overrides);
 }
 
+/// Refuses two objects of one name, which no reader of the answer could tell apart.
+void expect_different_names(const Table& table, const std::string& file)
+{
+    const TableColumn* const names = table.find("name");
+    if (names == nullptr) {
+        return;
+    }
+    std::map<std::string_view, std::size_t> rows;
+    for (std::size_t i = 0; i < names->texts.size(); ++i) {
+        if (const auto [first, is_new] = rows.emplace(names->texts[i], i); !is_new) {
+            throw Error(exit_code::job,
+                        "{}:{}: the name {} is that of line {}, too. Give every object a name of "
+                        "its own.",
+                        file, table.lines[i], in_quotes(shortened(names->texts[i], 40)),
+                        table.lines[first->second]);
+        }
+    }
+}
+
 /// The text of a job whose blocks are the objects. Without a strength, the motions are 0.
 std::string job_text(const AssessOptions& options)
 {
     const Table table = read_table(text_of_file(options.objects, objects_file), options.objects);
+    expect_different_names(table, options.objects);
     const auto has = [&](const char* name) { return table.find(name) != nullptr; };
     const bool is_recorded = !options.records.empty();
     std::string text = "[scene]\n";

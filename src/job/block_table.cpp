@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <set>
 
 namespace overturn {
@@ -82,13 +83,57 @@ void expect_free_name(const BlockTable& blocks, const std::string& name, const M
     }
 }
 
+/// A unit in the name of a column, such as width_cm.
+struct UnitOfColumn {
+    std::string_view suffix;
+    std::string_view of; ///< the unit of the quantity
+    double multiple;     ///< the unit of the quantity, in this unit
+};
+constexpr std::array<UnitOfColumn, 5> units_of_columns{{{"_m", "m", 1},
+                                                        {"_cm", "m", 100},
+                                                        {"_mm", "m", 1000},
+                                                        {"_deg", "rad", 180 / std::numbers::pi},
+                                                        {"_rad", "rad", 1}}};
+
+/// Converts columns with a unit in their name to those of the quantity. Two of one quantity are
+/// refused.
+void convert_units(BlockTable& blocks, const MotionTraits& motion)
+{
+    for (TableColumn& column : blocks.table.columns) {
+        for (const UnitOfColumn& unit : units_of_columns) {
+            const std::string_view name = column.name;
+            const Quantity* const quantity =
+                name.ends_with(unit.suffix) && find_quantity(name) == nullptr
+                    ? find_quantity(name.substr(0, name.size() - unit.suffix.size()))
+                    : nullptr;
+            if (quantity == nullptr || quantity->units != unit.of || !quantity->is_coordinate() ||
+                !quantity->applies_under(motion)) {
+                continue;
+            }
+            if (blocks.table.find(quantity->name) != nullptr) {
+                refuse(blocks, {GivenError::no_row, column.name,
+                                fmt::format(" is another column of {}. Remove one of them.",
+                                            quantity->name)});
+            }
+            for (double& value : column.numbers) {
+                value /= unit.multiple;
+            }
+            column.name = quantity->name;
+            break;
+        }
+    }
+}
+
 /// Refuses values that are not numbers, or not allowed.
 void expect_values(const BlockTable& blocks, const TableColumn& column, const Quantity& quantity)
 {
     if (column.first_text >= 0) {
         const std::string& text = column.texts[std::size_t(column.first_text)];
         refuse(blocks, {column.first_text, column.name,
-                        fmt::format(" = {} is not a number.", in_quotes(shortened(text, 40)))});
+                        fmt::format(" = {} is not a number.{}", in_quotes(shortened(text, 40)),
+                                    text.find(',') != text.npos && text.find('.') != text.npos
+                                        ? " Write it without separators of thousands."
+                                        : "")});
     }
     for (std::size_t row = 0; row < column.numbers.size(); ++row) {
         const double value = column.numbers[row];
@@ -180,6 +225,7 @@ BlockTable read_block_table(const std::string& file, const std::string& folder,
     const std::string path = (std::filesystem::path(folder) / file).string();
     BlockTable blocks{file, read_table(text_of_file(path, table_file), file, motion.choice), ""};
     const MotionsByName known = by_name(motions);
+    convert_units(blocks, motion);
     for (TableColumn& column : blocks.table.columns) {
         const Quantity* const quantity = find_quantity(column.name);
         // Under a pulse, the motion is a column like any other.

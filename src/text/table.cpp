@@ -16,7 +16,11 @@ namespace {
 /// A cursor over the values of a table.
 class Values {
 public:
-    Values(std::string_view text, const std::string& name) : rest_(text), name_(&name) {}
+    Values(std::string_view text, const std::string& name)
+        : rest_(text), name_(&name), separator_(separator_in(text.substr(0, text.find('\n'))))
+    {}
+
+    char separator() const { return separator_; }
 
     bool at_end() const { return rest_.empty(); }
     std::int64_t next_line() const { return next_line_; } ///< of the next value, counted from 1
@@ -33,7 +37,7 @@ public:
         if (!is_utf8(value)) {
             refuse("{} is not UTF-8. Save the table in UTF-8.", quoted_bytes(value));
         }
-        ends_row_ = !rest_.starts_with(',');
+        ends_row_ = !rest_.starts_with(separator_);
         next_line_ += ends_row_ ? 1 : 0;
         rest_.remove_prefix(std::min<std::size_t>(rest_.starts_with("\r\n") ? 2 : 1, rest_.size()));
         return value;
@@ -57,7 +61,8 @@ public:
 private:
     std::string_view plain_value()
     {
-        std::string_view value = rest_.substr(0, rest_.find_first_of(",\n"));
+        std::string_view value =
+            rest_.substr(0, rest_.find_first_of(std::string{separator_, '\n'}));
         if (value.ends_with('\r') && rest_.size() > value.size() && rest_[value.size()] == '\n') {
             value.remove_suffix(1);
         }
@@ -79,7 +84,7 @@ private:
             rest_.remove_prefix(end + 1);
             first = 0;
         } while (rest_.starts_with('"'));
-        if (!rest_.empty() && rest_.front() != ',' && rest_.front() != '\n' &&
+        if (!rest_.empty() && rest_.front() != separator_ && rest_.front() != '\n' &&
             !rest_.starts_with("\r\n")) {
             refuse("text follows the closing quotes. Put the whole value in quotes, and write "
                    "quotes in it twice.");
@@ -88,8 +93,22 @@ private:
         return unquoted_;
     }
 
+    /// The first of these characters outside of quotes; a comma if there is none.
+    static char separator_in(std::string_view first_line)
+    {
+        bool is_quoted = false;
+        for (const char letter : first_line) {
+            is_quoted = is_quoted != (letter == '"');
+            if (!is_quoted && (letter == ',' || letter == ';' || letter == '\t')) {
+                return letter;
+            }
+        }
+        return ',';
+    }
+
     std::string_view rest_;
     const std::string* name_;
+    char separator_;
     std::string unquoted_;
     std::int64_t line_ = 1;
     std::int64_t column_ = 0;
@@ -97,16 +116,44 @@ private:
     bool ends_row_ = true;
 };
 
-/// The number, NaN for an empty value; nullopt if it is text.
-std::optional<double> number_in(std::string_view value)
-{
-    if (value.empty()) {
-        return std::numeric_limits<double>::quiet_NaN();
+/// Reads numbers with a decimal point or, unless commas separate the values, a decimal comma.
+class Numbers {
+public:
+    explicit Numbers(char separator) : allows_comma_(separator != ',') {}
+
+    /// The number, NaN for an empty value; nullopt if it is text.
+    std::optional<double> in(std::string_view value, const Values& values)
+    {
+        if (value.empty()) {
+            return std::numeric_limits<double>::quiet_NaN();
+        }
+        std::string text(value);
+        const std::size_t comma = allows_comma_ ? text.find(',') : text.npos;
+        if (comma != text.npos) {
+            text[comma] = '.';
+        }
+        const ParsedNumber number = parse_number(text);
+        if (!is_whole(number, text) || number.error != std::errc()) {
+            return std::nullopt;
+        }
+        const char mark = comma != text.npos                    ? ','
+                          : text.find('.') != std::string::npos ? '.'
+                                                                : mark_;
+        if (allows_comma_ && mark_ != '\0' && mark != mark_) {
+            values.refuse("{} has a decimal {}, but a number before it a decimal {}. Write all "
+                          "numbers with the same decimal mark, and without separators of "
+                          "thousands.",
+                          quoted_bytes(value), mark == ',' ? "comma" : "point",
+                          mark == ',' ? "point" : "comma");
+        }
+        mark_ = mark;
+        return number.value;
     }
-    const ParsedNumber number = parse_number(value);
-    return is_whole(number, value) && number.error == std::errc() ? std::optional(number.value)
-                                                                  : std::nullopt;
-}
+
+private:
+    bool allows_comma_;
+    char mark_ = '\0'; // of the numbers before; none yet
+};
 
 std::vector<TableColumn> read_names(Values& values)
 {
@@ -123,16 +170,18 @@ std::vector<TableColumn> read_names(Values& values)
         }
         columns.push_back({std::move(name), {}, {}});
     } while (!values.ends_row());
-    if (columns.size() == 1 && columns[0].name.find_first_of(";\t|") != std::string::npos) {
-        values.refuse("{} is one name. Separate names and values by commas, and write numbers with "
-                      "a decimal point.",
-                      quoted_bytes(columns[0].name));
+    for (const TableColumn& column : columns) { // with a column that the others do not separate
+        if (column.name.find_first_of(",;\t|") != std::string::npos) {
+            values.refuse("{} is one name. Separate all names and values by commas, or all by "
+                          "semicolons or tabs.",
+                          quoted_bytes(column.name));
+        }
     }
     return columns;
 }
 
-/// Calls visit(line, column number, value) for every value of the remaining rows, which must have
-/// this number of columns.
+/// Calls visit(line, column number, value, values) for every value of the remaining rows, which
+/// must have this number of columns.
 template <class Visit>
 void for_each_value(Values values, std::size_t columns, const Visit& visit)
 {
@@ -142,7 +191,7 @@ void for_each_value(Values values, std::size_t columns, const Visit& visit)
         do {
             const std::string_view value = values.next();
             if (size < columns) {
-                visit(line, size, value);
+                visit(line, size, value, values);
             }
             ++size;
         } while (!values.ends_row());
@@ -150,9 +199,10 @@ void for_each_value(Values values, std::size_t columns, const Visit& visit)
             values.refuse_row(
                 line,
                 fmt::format("the row has {} {}, but the first line names {} {}. "
-                            "Separate values by commas; put a value that contains one in "
-                            "quotes. The decimal mark is a point.",
-                            size, noun_of(size, "values"), columns, noun_of(columns, "columns")));
+                            "Separate values as the names; put a value that contains the "
+                            "separator in quotes.{}",
+                            size, noun_of(size, "values"), columns, noun_of(columns, "columns"),
+                            values.separator() == ',' ? " The decimal mark is a point." : ""));
         }
     }
 }
@@ -186,31 +236,34 @@ Table read_table(std::string_view text, const std::string& name, std::string_vie
     for (TableColumn& column : table.columns) {
         column.first_text = column.name == text_column ? 0 : column.first_text;
     }
-    for_each_value(values, table.columns.size(), [&](std::int64_t line, std::size_t i, auto value) {
-        if (i == 0) {
-            table.lines.push_back(line);
-        }
-        TableColumn& column = table.columns[i];
-        if (column.first_text >= 0) {
-            return;
-        }
-        if (const std::optional<double> number = number_in(value)) {
-            column.numbers.push_back(*number);
-        } else {
-            column.first_text = table.rows() - 1;
-            column.numbers.clear();
-        }
-    });
+    Numbers numbers(values.separator());
+    for_each_value(values, table.columns.size(),
+                   [&](std::int64_t line, std::size_t i, auto value, const Values& at) {
+                       if (i == 0) {
+                           table.lines.push_back(line);
+                       }
+                       TableColumn& column = table.columns[i];
+                       if (column.first_text >= 0) {
+                           return;
+                       }
+                       if (const std::optional<double> number = numbers.in(value, at)) {
+                           column.numbers.push_back(*number);
+                       } else {
+                           column.first_text = table.rows() - 1;
+                           column.numbers.clear();
+                       }
+                   });
     if (table.lines.empty()) {
         values.refuse_row(2, "the table has no rows. Add a line of values for each block.");
     }
     const auto is_text = [](const TableColumn& column) { return column.first_text >= 0; };
     if (std::any_of(table.columns.begin(), table.columns.end(), is_text)) {
-        for_each_value(values, table.columns.size(), [&](std::int64_t, std::size_t i, auto value) {
-            if (is_text(table.columns[i])) {
-                table.columns[i].texts.emplace_back(value);
-            }
-        });
+        for_each_value(values, table.columns.size(),
+                       [&](std::int64_t, std::size_t i, auto value, auto&) {
+                           if (is_text(table.columns[i])) {
+                               table.columns[i].texts.emplace_back(value);
+                           }
+                       });
     }
     return table;
 }

@@ -125,6 +125,32 @@ class Assess(Scratch):
         self.assertEqual(rows["statue"]["verdict"], "topples")  # which would stand if it could not slip
         self.assertAlmostEqual(rows["statue"]["topples_from"], 0.903568714, delta=1e-4)
 
+    def test_reads_tables_with_semicolons_decimal_commas_and_units(self):
+        self.write_table("name,width,height,incline\nvase,0.18,0.45,0\nleaning,0.41,1.2,0.05\n")
+        expected = self.rows("--period", "0.5", "--pga", "0.4")
+        self.write_table("name;width_cm;height_mm;incline_deg\n"
+                         f"vase;18;450;0\nleaning;41,0;1200;{math.degrees(0.05)!r}\n".replace(".", ","))
+        found = self.rows("--period", "0.5", "--pga", "0.4")
+        for name, row in expected.items():
+            for key, value in row.items():
+                if isinstance(value, float):
+                    self.assertAlmostEqual(found[name][key], value, places=12)
+                else:
+                    self.assertEqual(found[name][key], value)
+
+    def test_refuses_ambiguous_tables(self):
+        for table, words in (
+                ("name,width,width_cm,height\na,0.1,10,1\n", "width_cm is another column of width. Remove one"),
+                ("name,width_cm,width_mm,height\na,10,100,1\n", "width_mm is another column of width. Remove one"),
+                ("name;width;height\na;1.234,5;2\n", "is not a number. Write it without separators of thousands"),
+                ("name,breite,height\na,0.1,1\n", "width"),
+                ("name,width,height\na,0.1,1\na,0.2,1\n", "the name \"a\" is that of line 2, too"),
+                ("name,width,height,friction\na,0.1,1,0.3\nb,0.2,1,\n", "friction"),
+                ("name,width,height\na,0.1,1\n,,\n", "width")):
+            with self.subTest(table=table):
+                self.write_table(table)
+                self.assert_exit(self.overturn("assess", "objects.csv", "--period", "0.5"), 65, words)
+
     def test_refuses_what_it_cannot_use(self):
         self.write_table(TABLE)
         for options, code, words in (

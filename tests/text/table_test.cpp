@@ -113,16 +113,35 @@ TEST(Table, ThatIsNotUtf8IsRefusedWithLineAndColumn)
     }
 }
 
-TEST(Table, WithOtherSeparatorsOrDecimalCommasIsRefused)
+TEST(Table, HasTheSeparatorOfItsNamesAndAnyDecimalMark)
 {
-    EXPECT_EQ(
-        refusal_of("width;height\n0.5;2\n"),
-        "t.csv:1:1: \"width;height\" is one name. Separate names and values by commas, and write "
-        "numbers with a decimal point.");
-    for (const char* text : {"width;height\n0,5;2\n", "width\theight\n0,5\t2\n", "width\n0,5\n",
-                             "width,height\n0,5,2,5\n"}) {
-        EXPECT_NE(refusal_of(text).find("decimal"), std::string::npos) << text;
+    const std::vector<double> widths{0.5, 0.25};
+    for (const char* text : {"width,name\n0.5,a\n0.25,b\n", "width;name\n0.5;a\n0.25;b\n",
+                             "width;name\n0,5;a\n0,25;b\n", "width\tname\n0,5\ta\n0,25\tb\n",
+                             "width;\"name\"\r\n\"0,5\";\"a\"\r\n0,25;b\r\n"}) {
+        const Table table = table_of(text);
+        EXPECT_EQ(table.find("width")->numbers, widths) << text;
+        EXPECT_EQ(table.find("name")->texts, (std::vector<std::string>{"a", "b"})) << text;
     }
+    const Table table = table_of("name;width\nVase, blue;1\n\"a;b\";2,5e-1\n");
+    EXPECT_EQ(table.columns[0].texts, (std::vector<std::string>{"Vase, blue", "a;b"}));
+    EXPECT_EQ(table.columns[1].numbers, (std::vector<double>{1, 0.25}));
+}
+
+TEST(Table, WithAmbiguousSeparatorsOrDecimalMarksIsRefused)
+{
+    for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
+             {"width;height,name\n1;2,a\n", "t.csv:1:2: \"height,name\" is one name."},
+             {"width|height\n1|2\n", "t.csv:1:1: \"width|height\" is one name."},
+             {"a;b\n0,5;1\n0.25;1\n", "t.csv:3:1: \"0.25\" has a decimal point, but a number "},
+             {"a;b\n0.5;0,5\n", "t.csv:2:2: \"0,5\" has a decimal comma, but a number "},
+             {"width\n0,5\n", "t.csv:2: the row has 2 values, but the first "},
+             {"width,height\n0,5,2,5\n", "t.csv:2: the row has 4 values, but the first "}}) {
+        EXPECT_TRUE(refusal_of(text).starts_with(message)) << refusal_of(text);
+    }
+    EXPECT_NE(refusal_of("width\n0,5\n").find("The decimal mark is a point."), std::string::npos);
+    const Table thousands = table_of("a;b\n1.234,5;1\n");
+    EXPECT_EQ(thousands.columns[0].first_text, 0); // not a number
 }
 
 } // namespace
