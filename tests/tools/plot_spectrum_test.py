@@ -217,7 +217,7 @@ class TestTheMap(Picture):
             rgb = np.array(colors.to_rgb(REGIONS[code][2]))
             linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
             return 116 * np.cbrt(linear @ [0.2126, 0.7152, 0.0722]) - 16
-        kinds = [[3, 4], [0], [5, 6], [7, 8], [1, 2]]  # U0, S, U1, F, S+-
+        kinds = [[0], [1, 2], [7, 8], [3, 4], [5, 6]]  # S, S+-, F, U0, U1
         for lighter, darker in zip(kinds, kinds[1:]):
             gap = min(map(lightness, lighter)) - max(map(lightness, darker))
             # About 2 is the least visible difference side by side; apart in a map more is needed.

@@ -23,6 +23,7 @@ from overturn.plot import boundaries, histories
 from overturn.choice import axes_of
 from overturn.plot import spectra
 from overturn.result_file import BOUNDARY, HISTORY, SPECTRUM, open_result
+from overturn.regions import REGIONS, STANDS, TOPPLES
 from overturn.spectrum_planes import Axis, Plane
 
 P = np.sqrt(3 * 9.81 / (4 * np.hypot(0.3, 0.9)))  # [1/s]
@@ -170,7 +171,7 @@ class TestAPhysicalBoundary(Sized):
         panel = picture[-640:-100, 120:-50]
         ends = panel[:, :80], panel[:, -80:]  # what is between was not computed
         safe, unsafe = ([np.isclose(end, colors.to_rgb(shade), atol=1 / 255).all(axis=2).mean()
-                         for end in ends] for shade in ("#8bc77f", "#f4e3b0"))
+                         for end in ends] for shade in (REGIONS[STANDS][2], REGIONS[TOPPLES][2]))
         self.assertGreater(safe[0], 0.95)
         self.assertGreater(unsafe[1], 0.7)
         picture = self.svg(*PHYSICAL, **how)

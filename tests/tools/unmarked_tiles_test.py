@@ -13,7 +13,7 @@ from matplotlib import colors
 from plot_spectrum_test import Picture
 from tool import InAFolder  # first: adds the package to the path
 import overturn
-from overturn.regions import NOT_COMPUTED, REGIONS
+from overturn.regions import HATCH, NOT_COMPUTED, REGIONS
 from overturn.result_file import BOUNDARY, SPECTRUM, open_result
 
 SAFE = 0
@@ -74,7 +74,7 @@ class TestATileWithoutAMark(InAFolder):
     def test_has_no_end_states(self):
         self.compute()
         with_zeros = self.picture(tool="plot_landing")
-        self.assertGreater(self.count("0.6", with_zeros), 1000)  # hatched; letters have about a hundred such pixels
+        self.assertGreater(self.count(HATCH["facecolor"], with_zeros), 1000)  # hatched; letters have about a hundred such pixels
         with h5py.File(self.folder / "spectrum.h5", "a") as file:
             file["region"][UNMARKED] = NOT_COMPUTED
         np.testing.assert_array_equal(self.picture(tool="plot_landing"), with_zeros)

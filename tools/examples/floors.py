@@ -15,6 +15,7 @@ try:
     from matplotlib.colors import ListedColormap
     from matplotlib.patches import Patch
     from overturn.output_file import save
+    from overturn.regions import REGIONS, VERDICTS
     from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of, run_tool
     from scipy.linalg import eigh
 except ImportError as error:
@@ -35,7 +36,7 @@ FIRST_PERIOD = 0.602  # of the building of docs/floors.md [s]
 STATUE = {"width": 0.5, "height": 2.0, "restitution_of_maximum": 0.9}  # [m]
 PERIODS = np.geomspace(0.1, 2, 161)  # first periods [s]
 PGA = np.linspace(0.005, 1.2, 240)  # [g]
-COLOURS = {"stands": "#8bc77f", "topples": "#c9961a", "undecided": "#e6007e"}  # by verdict
+COLOURS = {name: REGIONS[code][2] for code, name in VERDICTS.items()}
 GROUND, FLOOR = "0.55", "#0b3c5d"
 
 

@@ -19,6 +19,7 @@ from overturn.choice import add_choice_arguments, sheet_of
 from overturn.motion_words import worded
 from overturn.output_file import save
 from overturn.plot.bands import set_axes
+from overturn.plot.cover import cover, hatch
 from overturn.plot.headings import Heading
 from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.result_file import BOUNDARY, open_result
@@ -41,11 +42,9 @@ is shaded as safe may contain them."""
 SAFE, UNSAFE, UNDECIDED, NOT_COMPUTED, NOT_SCANNED = range(5)
 VERDICTS = np.full(256, UNDECIDED)  # by the code of a region
 VERDICTS[regions.SAFE], VERDICTS[regions.UNSAFE], VERDICTS[regions.NOT_COMPUTED] = SAFE, UNSAFE, NOT_COMPUTED
-# Safe and unsafe have about the same lightness as in spectra.
-SHADES = {SAFE: regions.REGIONS[0][2], UNSAFE: "#f4e3b0", UNDECIDED: "#f3b3d6", NOT_COMPUTED: "#d9d9d9",
-          NOT_SCANNED: "#ffffff"}
-FIRST, OTHERS, DOUBTFUL = "#8c1c13", "#1f3b57", regions.REGIONS[254][2]
-CODE_OF_UNDECIDED = 254
+SHADES = {SAFE: regions.REGIONS[regions.STANDS][2], UNSAFE: regions.REGIONS[regions.TOPPLES][2],
+          UNDECIDED: regions.REGIONS[regions.UNDECIDED][2], NOT_COMPUTED: "none", NOT_SCANNED: "white"}
+FIRST, OTHERS, DOUBTFUL = "black", "#1f3b57", regions.REGIONS[regions.UNDECIDED][2]
 ROWS = 1400  # of the shading: half a pixel at the default size
 COLUMN = 4  # height over width of the panel of a single block and frequency
 HEIGHT = 6.6  # of the figure of one plane [inches], with one line each for its title and for what is below it
@@ -67,7 +66,7 @@ class Lines:
         self.flips = plane.read(name_of_flips(up))
         codes = np.stack([plane.read(name) for name in ("region_below", "region_above")])
         self.below, self.above = VERDICTS[codes]
-        self.has_undecided = (codes == CODE_OF_UNDECIDED).any(axis=(0, 1))
+        self.has_undecided = (codes == regions.UNDECIDED).any(axis=(0, 1))
         self.overturns_at_once = self.below[0] == UNSAFE
 
     def minimum(self):
@@ -96,14 +95,13 @@ def shade(panel, lines):
     edges = np.linspace(*up.edges[[0, -1]], ROWS + 1)
     middles = (edges[1:] + edges[:-1]) / 2
     amplitudes = np.exp(middles) if up.scale == "log" else middles
-    table = np.array([matplotlib.colors.to_rgb(SHADES[verdict]) for verdict in sorted(SHADES)])
+    table = np.array([matplotlib.colors.to_rgba(SHADES[verdict]) for verdict in sorted(SHADES)])
     # Columns are as wide as the cells of their frequencies, which may be unequal.
     verdicts = lines.verdicts(amplitudes)[:, across.cells(ROWS)]
-    verdicts[:, across.is_between(ROWS)] = NOT_SCANNED
+    verdicts[:, across.is_between(ROWS)] = NOT_SCANNED if across.scale == BANDS else NOT_COMPUTED
     set_axes(panel, across, up)
-    image = panel.imshow(table[verdicts], extent=(0, 1, 0, 1), transform=panel.transAxes,
-                         origin="lower", aspect="auto", interpolation="nearest", zorder=0)
-    image.set_in_layout(False)  # Matplotlib takes its extent for one in data coordinates
+    hatch(panel)
+    cover(panel, table[verdicts])
 
 
 def draw_flips(panel, lines):
@@ -129,6 +127,7 @@ def legend_entries(all_lines):
 
     def shade_of(verdict):
         return Patch(facecolor=SHADES[verdict], edgecolor="black", linewidth=0.5)
+    hatched = Patch(**regions.HATCH, linewidth=0.5)
     word = all_lines[0].word
     lowest = f"minimum overturning {word}" if all_lines[0].ground == "pulse" else "lowest flip found"
     entries = [
@@ -140,8 +139,8 @@ def legend_entries(all_lines):
         (lambda lines: True, shade_of(SAFE), "safe"),
         (lambda lines: lines.has_undecided, (shade_of(UNDECIDED), marks("v", DOUBTFUL, 5)),
          "undecided, or more flips"),
-        (lambda lines: lines.below[0] == NOT_COMPUTED, shade_of(NOT_COMPUTED), "not computed yet"),
-        (lambda lines: lines.across.scale != BANDS and lines.across.is_between(ROWS), shade_of(NOT_SCANNED), "between computed values")]
+        (lambda lines: lines.below[0] == NOT_COMPUTED, hatched, "not computed yet"),
+        (lambda lines: lines.across.scale != BANDS and lines.across.is_between(ROWS), hatched, "between computed values")]
     shown = [(handle, label) for is_in, handle, label in entries
              if any(np.any(is_in(lines)) for lines in all_lines)]
     return tuple(zip(*shown))

@@ -15,6 +15,7 @@ from overturn.marked_points import Misjudged, Slipping
 from overturn.output_file import save
 from overturn.overlay import draw_boundary, open_boundary
 from overturn.plot.bands import set_axes
+from overturn.plot.cover import cover, hatch
 from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.region_labels import Label, add_label_argument, thinned, write_label
 from overturn.regions import coloured, legend_entries
@@ -52,17 +53,6 @@ Axes are drawn in the units of the job. If it gives the size of the block, all c
 
 + and - denote the side to which a block falls, or swings if it is safe. For an unfinished file the
 computed part is plotted."""
-
-
-def cover(panel, picture):
-    image = panel.imshow(picture, extent=(0, 1, 0, 1), transform=panel.transAxes, origin="lower",
-                         aspect="auto", interpolation="nearest")
-    image.set_in_layout(False)  # Matplotlib takes its extent for one in data coordinates
-
-
-def hatch(panel):
-    """Hatches what a picture does not cover: it is not computed."""
-    panel.patch.set(facecolor="white", edgecolor="0.6", hatch="////", linewidth=0)
 
 
 def draw_panel(panel, codes, across, up):
