@@ -27,6 +27,14 @@ class Plane:
         self.file, self.index, self.across, self.up = file, index, across, up
         self.height = file.sizes[up]
 
+    def without_single_values(self):
+        """Returns the plane of the only axis of several values, if one of two has a single value."""
+        sizes = [(self.file.sizes[name], name) for name in (self.across, self.up) if name is not None]
+        if len(sizes) < 2 or min(sizes)[0] > 1:
+            return self
+        single, other = (name for _, name in sorted(sizes, key=lambda each: each[0]))
+        return Plane(self.file, {**self.index, single: 0}, None, other)
+
     def read(self, name, rows=slice(None)):
         """Reads some rows of a field."""
         dimensions, values = self.file[name].dimensions, self.file[name].at({**self.index, self.up: rows})

@@ -2,12 +2,14 @@
 
 import numpy as np
 from matplotlib import pyplot
+from matplotlib.cm import ScalarMappable
 from overturn.plot.bands import BandTicks
 from overturn.plot.headings import LINE, POINTS, Heading, wrapped
 
 MOST_PANELS = 100
 SIDES = {1: 20 / 3, 2: 4.4, 3: 3.4, 4: 2.8, 5: 2.3, 6: 2.0, 7: 1.75, 8: 1.6, 9: 1.5, 10: 1.4}  # by the columns [inches]
 MOST_HEIGHT = 32  # of the panels [inches]
+MOST_LENGTH = 3.0  # of a colour bar [inches]
 
 
 class Sheet:
@@ -37,7 +39,7 @@ class Sheet:
         further = max(title.count("\n") for title in titles)  # lines above a panel
         line = size * LINE * 1.3 / POINTS
         gap = self.GAP + line * max(0, further - 1) + (0 if shares[0] else below + 0.2)
-        self.top = 1 + line * further + heading.extra
+        self.top = self.explained = 1 + line * further + heading.extra
         self.height = self.top + rows * (side + gap) - gap + self.bottom
         self.figure, self.panels = pyplot.subplots(rows, columns, squeeze=False, dpi=dpi,
                                                    sharex=shares[0], sharey=shares[1],
@@ -59,9 +61,37 @@ class Sheet:
         self.figure.supylabel(up, fontsize=12, x=0.15 / self.width,
                               y=(self.bottom + self.height - self.top) / 2 / self.height)
 
+    def add_colour_bar(self, field):
+        """Adds the colours of a Field, above the legend."""
+        length = min(self.height - self.top - self.bottom, MOST_LENGTH)
+        axes = self.figure.add_axes(((self.width - self.RIGHT + 0.25) / self.width, 1 - (self.top + length) / self.height,
+                                     0.2 / self.width, length / self.height))
+        self.figure.colorbar(ScalarMappable(field.norm, field.colours), cax=axes, extend=field.extend)
+        axes.set_ylabel("\n".join(wrapped(field.label, 10.5, length)), fontsize=10.5)
+        self.explained = self.top + length + 0.35
+
     def explain(self, **entries):
-        corner = (1 - (self.RIGHT - 0.2) / self.width, 1 - self.top / self.height)
+        """Adds the legend; the figure grows downward if it is too short for it."""
         legend = self.figure.legend(
-            loc="upper left", bbox_to_anchor=corner, borderaxespad=0, frameon=False, fontsize=10.5,
+            loc="upper left", borderaxespad=0, frameon=False, fontsize=10.5,
             handlelength=1.6, handleheight=1.2, labelspacing=0.7, alignment="left", **entries)
         legend.get_title().set_fontsize(10.5)
+        corner = 1 - (self.RIGHT - 0.2) / self.width
+        legend.set_bbox_to_anchor((corner, 1 - self.explained / self.height), self.figure.transFigure)
+        missing = self.EDGE - legend.get_window_extent().y0 / self.figure.dpi
+        if missing > 0:
+            self._lengthen(missing)
+            legend.set_bbox_to_anchor((corner, 1 - self.explained / self.height), self.figure.transFigure)
+
+    def _lengthen(self, more):
+        """Adds a margin at the bottom [inches]."""
+        share = self.height / (self.height + more)
+        grid = self.figure.subplotpars
+        self.figure.subplots_adjust(bottom=1 - (1 - grid.bottom) * share, top=1 - (1 - grid.top) * share)
+        for text in self.figure.texts:
+            text.set_y(1 - (1 - text.get_position()[1]) * share)
+        for bar in {*self.figure.axes} - {*self.panels.flat}:
+            box = bar.get_position()
+            bar.set_position((box.x0, 1 - (1 - box.y0) * share, box.width, box.height * share))
+        self.height += more
+        self.figure.set_size_inches(self.width, self.height)

@@ -1,4 +1,4 @@
-"""Plots the overturning spectra of a result file as maps of regions."""
+"""Plots the overturning spectra of a result file as maps of regions, of verdicts or of a field."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from overturn.captions import ground_word, heading, panel_titles, plain, subtitle
 from overturn.choice import add_choice_arguments, sheet_of
+from overturn.colourings import VALUE, Field, Regions, Verdicts
 from overturn.friction import expect_coefficient, takes_friction_demand
 from overturn.marked_points import Misjudged, Slipping
 from overturn.output_file import save
@@ -18,9 +19,9 @@ from overturn.plot.bands import set_axes
 from overturn.plot.cover import cover, hatch
 from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.region_labels import Label, add_label_argument, thinned, write_label
-from overturn.regions import coloured, legend_entries
 from overturn.result_file import SPECTRUM, open_result
-from overturn.tool import Renamed, parse_with_picture, parser_of
+from overturn.spectrum_planes import BANDS
+from overturn.tool import USAGE, Renamed, ToolError, parse_with_picture, parser_of
 from overturn.units import add_units_argument, axes_of_plane, expect_size, name_axes
 
 EXAMPLE = """\
@@ -36,6 +37,11 @@ than 100, so many in even steps:
 
 The axes are the last two dimensions of several values; an index of one of these takes it out:
   tools/plot_spectrum heights.h5 --index pulse_period=0   # height and PGA, of height, PGA and period
+
+Three colours show what stands, what topples and what is unknown. A map of the largest tilt, the field peak, is a rocking
+spectrum:
+  tools/plot_spectrum figure_07a.h5 --verdict
+  tools/plot_spectrum figure_07a.h5 --field peak
 
 A label is placed where its region is widest:
   tools/plot_spectrum figure_07a.h5 --label III=S+@10,12 --label V=S+@7,12
@@ -55,10 +61,17 @@ Axes are drawn in the units of the job. If it gives the size of the block, all c
 computed part is plotted."""
 
 
-def draw_panel(panel, codes, across, up):
-    set_axes(panel, across, up)
-    hatch(panel)
-    cover(panel, coloured(codes))
+MOST_DOTS = 200  # on a line
+
+
+def axes_in_picture(plane, axes, colouring):
+    """Returns the horizontal and the vertical Axis; the only one of a line is horizontal."""
+    return (axes[1], colouring.axis) if colouring.has_line(plane) else axes
+
+
+def draw_line(panel, plane, up, field):
+    panel.plot(*field.line(plane, up), linestyle="none" if up.scale == BANDS else "-", linewidth=1.2, color="black",
+               marker="." if up.size <= MOST_DOTS else "", markersize=4)
 
 
 def write_labels(panel, codes, labels, across, up):
@@ -69,47 +82,71 @@ def write_labels(panel, codes, labels, across, up):
             write_label(panel, piece, label.text, size=13)
 
 
-def draw_panels(panels, pixels, planes, axes, arguments, marks):
-    """Draws the maps, each of pixels x pixels, and returns the codes in the picture."""
+def draw_panels(panels, pixels, planes, axes, arguments, layers):
+    """Draws the maps, each of pixels x pixels, and returns the codes in the picture. `layers` are what the colours show, and
+    marks."""
     present = set()
+    colouring, *marks = layers
     with open_boundary(arguments.boundary, planes[0], arguments.units) as boundary:
         for panel, plane, (across, up) in zip(panels, planes, axes):
+            has_line = colouring.has_line(plane)
             codes = plane.read_regions(up, across, pixels)
-            present.update(np.unique(codes))
-            draw_panel(panel, codes, across, up)
-            for mark in marks:
-                cover(panel, mark.picture(plane, codes, up, across))
+            shown, picture = colouring.picture(plane, codes, up, across)
+            present.update(np.unique(shown))
+            if has_line:
+                picture[shown == VALUE] = 255
+            set_axes(panel, *axes_in_picture(plane, (across, up), colouring))
+            hatch(panel)
+            for each in (picture, *(mark.picture(plane, codes, up, across) for mark in marks)):
+                cover(panel, each.swapaxes(0, 1) if has_line else each)
+            if has_line:
+                draw_line(panel, plane, up, colouring)
             if boundary is not None:
                 draw_boundary(panel, boundary, plane, arguments.units)
-            write_labels(panel, codes, arguments.label, across, up)
+            write_labels(panel, *((codes.T, arguments.label, up, across) if has_line else
+                                  (codes, arguments.label, across, up)))
     return present
 
 
-def draw_sheet(planes, columns, left_out, marks, arguments, dpi):
-    units, ground = arguments.units, ground_word(planes[0].file)
+def labels_of_axes(plane, units, colouring):
+    across, up = name_axes(plane, units)
+    return (up, colouring.label) if colouring.has_line(plane) else (across, up)
+
+
+def draw_sheet(planes, columns, left_out, layers, arguments, dpi):
+    units, (colouring, *marks) = arguments.units, layers
     axes = [axes_of_plane(plane, units, arguments.boundary is not None) for plane in planes]
     title = heading(planes) if arguments.title is None else arguments.title
     second = ",  ".join([subtitle(planes, units)] + [left_out] * bool(left_out))
-    sheet = Sheet((plain(title), second), panel_titles(planes, units), columns, dpi, axes)
-    present = draw_panels(sheet.panels.flat, sheet.pixels, planes, axes, arguments, marks)
-    sheet.name_axes(*name_axes(planes[0], units))
-    entries = legend_entries(present, ground)
+    sheet = Sheet((plain(title), second), panel_titles(planes, units), columns, dpi,
+                  [axes_in_picture(plane, each, colouring) for plane, each in zip(planes, axes)])
+    present = draw_panels(sheet.panels.flat, sheet.pixels, planes, axes, arguments, layers)
+    sheet.name_axes(*labels_of_axes(planes[0], units, colouring))
+    if isinstance(colouring, Field) and VALUE in present and not colouring.has_line(planes[0]):
+        sheet.add_colour_bar(colouring)
+    entries, explanation = colouring.legend(present, ground_word(planes[0].file))
     entries += [mark.legend_entry() for mark in marks]
     if arguments.boundary:
         entries.append(Line2D([], [], linestyle="none", marker="o", markersize=3, color="black",
                               label="flip of the verdict"))
-    sheet.explain(handles=entries, title=f"At the end of the {ground}\n(+ and − are the side it moves to)")
+    sheet.explain(handles=entries, title=explanation)
     return sheet
 
 
-def draw_into(ax, plane, marks, arguments):
+def draw_into(ax, plane, layers, arguments):
     """Draws one spectrum without a legend; a point of the picture per pixel of the axes."""
     size = ax.get_window_extent()
     pixels = max(1, round(max(size.width, size.height)))
     axes = axes_of_plane(plane, arguments.units, arguments.boundary is not None)
-    draw_panels([ax], pixels, [plane], [axes], arguments, marks)
-    across, up = name_axes(plane, arguments.units)
+    draw_panels([ax], pixels, [plane], [axes], arguments, layers)
+    across, up = labels_of_axes(plane, arguments.units, layers[0])
     ax.set(xlabel=across, ylabel=up, title=arguments.title or "")
+
+
+def colouring_of(arguments):
+    if arguments.verdict and arguments.field is not None:
+        raise ToolError("give a field or the verdict, not both.", USAGE)
+    return Verdicts() if arguments.verdict else Regions() if arguments.field is None else Field(arguments.field)
 
 
 def draw(path, arguments, dpi, ax=None):
@@ -117,21 +154,26 @@ def draw(path, arguments, dpi, ax=None):
     lines of a report: what is left out, and the counts of points that an option marks."""
     marks = [Misjudged()] * bool(arguments.practice)
     marks += [] if arguments.friction_demand is None else [Slipping(arguments.friction_demand)]
-    with open_result(path, SPECTRUM, ("region", *(mark.FIELD for mark in marks))) as file:
+    layers = [colouring_of(arguments), *marks]
+    fields = dict.fromkeys(["region", *layers[0].FIELDS, *(mark.FIELD for mark in marks)])
+    with open_result(path, SPECTRUM, tuple(fields)) as file:
         expect_size(file, arguments.units)
         planes, columns, left_out = sheet_of(file, arguments, 1 if ax is not None else MOST_PANELS)
-        for mark in marks:
-            mark.add(planes)
+        if arguments.field is not None:
+            planes = [plane.without_single_values() for plane in planes]
+        for layer in layers:
+            layer.add(planes)
         if ax is not None:
-            return draw_into(ax, planes[0], marks, arguments)
+            return draw_into(ax, planes[0], layers, arguments)
         report = [left_out] * bool(left_out) + [mark.report() for mark in marks]
-        return draw_sheet(planes, columns, left_out, marks, arguments, dpi), len(planes), report
+        return draw_sheet(planes, columns, left_out, layers, arguments, dpi), len(planes), report
 
 
 @takes_friction_demand
 def spectrum(result, *, motion: int | None = None, slenderness: int | None = None,
              restitution: int | None = None, index: Mapping[str, int] = {}, units: str = "job", boundary=None,
-             practice: bool = False, friction_demand: float | None = None, labels: tuple[str, ...] = (), title: str | None = None, ax=None):
+             practice: bool = False, friction_demand: float | None = None, labels: tuple[str, ...] = (), title: str | None = None,
+             verdict: bool = False, field: str | None = None, ax=None):
     """Draws overturning spectra as maps of regions, as tools/plot_spectrum does.
 
     result: the path of a file, or a data set of overturn.open(), of which parts may be selected and values changed.
@@ -139,13 +181,14 @@ def spectrum(result, *, motion: int | None = None, slenderness: int | None = Non
     restitution: indices, counted from 0, of one spectrum of several. index: the same for any dimensions, such as
     {"height": 0}. units: "job", or "physical" for s and g. boundary: the path of a boundary to draw on it.
     practice: mark what published practice misjudges; needs the field peak. friction_demand: hatch what needs a larger friction
-    coefficient; needs the field friction_demand. labels: such as "III=S+@10,12". ax: axes
-    of Matplotlib for one spectrum without a legend.
+    coefficient; needs the field friction_demand. labels: such as "III=S+@10,12". verdict: draw what stands, what
+    topples and what is unknown. field: the name of a field to draw, such as "peak". ax: axes of Matplotlib for one spectrum
+    without a legend.
 
     Returns the axes; a list of them for several spectra. Raises overturn.ToolError."""
     arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,
                                 index=index.items(), units=units, boundary=boundary, practice=practice, friction_demand=friction_demand,
-                                label=[Label(words) for words in labels], title=title)
+                                label=[Label(words) for words in labels], title=title, verdict=verdict, field=field)
     drawn = draw(result, arguments, 150, ax)
     if ax is not None:
         return ax
@@ -167,6 +210,11 @@ def read_arguments(argv):
     add_choice_arguments(parser)
     add_label_argument(parser)
     add_units_argument(parser)
+    shown = parser.add_mutually_exclusive_group()
+    shown.add_argument("--verdict", action="store_true",
+                       help="draw what stands, what topples and what is unknown: undecided, or not computed")
+    shown.add_argument("--field", metavar="NAME",
+                       help="draw the values of a field of the file, such as peak; as lines if only one axis varies")
     parser.add_argument("--boundary", metavar="BOUNDARY.h5",
                         help="overlay the flips of the verdict; written by overturn boundary")
     parser.add_argument("--practice", action="store_true",

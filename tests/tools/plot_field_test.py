@@ -1,0 +1,160 @@
+"""The verdicts and the fields that tools/plot_spectrum draws, as colours and as lines.
+
+Requires OVERTURN (the binary) in the environment.
+"""
+
+import unittest
+
+import numpy as np
+from matplotlib import pyplot
+from plot_spectrum_test import F_MINUS, NOT_COMPUTED, S, S_PLUS, U0_MINUS, UNDECIDED, where
+from recorded_spectra_test import Recorded
+import overturn
+from overturn.regions import STANDS, TOPPLES
+
+KINDS = (STANDS, TOPPLES, UNDECIDED)
+
+
+class Field(Recorded):
+    def spectrum_with(self, codes, name, values, units="1", fill=np.nan, **attributes):
+        """Writes a row ten times, because a single one is a line and few have gaps, or a column once."""
+        codes, values = (np.tile(row, (1 if np.ndim(codes) > 1 else 10, 1)) for row in (codes, values))
+        self.spectrum(codes)
+        self.add(name, values, fill)
+        self.change(lambda file: file[name].attrs.update({"units": units, "long_name": f"the {name}", **attributes}))
+
+    def map(self, *arguments):
+        """Returns the pixels of the map, without spines; rows upward."""
+        picture = self.picture(*arguments)
+        left, right, bottom, top = 0.85, 3.25, 0.7, 1.0  # margins [inches]
+        box = [round(150 * side) for side in (left, right, bottom, top)]
+        return picture[box[3] + 4:-box[2] - 4, box[0] + 4:-box[1] - 4][::-1]
+
+    def shares(self, *arguments):
+        picture = self.map(*arguments)
+        return [np.count_nonzero(where(picture, code)) / picture[..., 0].size for code in KINDS]
+
+
+class TestTheVerdict(Field):
+    def test_has_three_colours(self):
+        self.spectrum([np.repeat([S, S_PLUS, F_MINUS, U0_MINUS, UNDECIDED, NOT_COMPUTED], 4)])
+        np.testing.assert_allclose(self.shares("--verdict"), 1 / 3, atol=0.01)
+        words = self.words("--verdict")
+        self.assertEqual([word for word in words if word in ("stands", "topples", "unknown")], ["stands", "topples", "unknown"])
+        self.assertNotIn("At the end of the pulse", words)
+
+    def test_is_unknown_outside_what_was_computed(self):
+        self.spectrum([[S] * 14], frequency=np.append(np.arange(1.0, 14), 17))
+        stands, topples, unknown = self.shares("--verdict")
+        self.assertAlmostEqual(stands, 15.5 / 17.5, delta=0.01)
+        self.assertAlmostEqual(unknown, 2 / 17.5, delta=0.01)
+        self.assertEqual(topples, 0)
+
+
+class TestAField(Field):
+    def test_is_coloured_by_its_values(self):
+        generator = np.random.default_rng(5)
+        values = generator.permutation(np.linspace(0, 2, 40))
+        self.spectrum_with(np.full(40, S), "peak", values)
+        picture = self.map("--field", "peak")[250]
+        shown = picture[((np.arange(40) + 0.5) / 40 * len(picture)).astype(int)]
+        lightness = shown @ [0.2126, 0.7152, 0.0722]
+        np.testing.assert_array_equal(np.argsort(-lightness, kind="stable"), np.argsort(values))
+        self.assertIn("the peak", self.words("--field", "peak"))
+
+    def test_has_no_value_where_the_verdict_is_unknown_or_overturning_makes_it_infinite(self):
+        codes = np.repeat([S, F_MINUS, UNDECIDED, S, NOT_COMPUTED], 4)
+        # A point without a verdict has a margin; a point with one may have none.
+        self.spectrum_with(codes, "peak", np.repeat([0.5, np.inf, 0.5, np.nan, np.nan], 4))
+        stands, topples, unknown = self.shares("--field", "peak")
+        self.assertEqual(stands, 0)
+        self.assertAlmostEqual(topples, 1 / 5, delta=0.01)
+        self.assertGreater(unknown, 2 / 5)
+        words = self.words("--field", "peak")
+        for word in ("topples", "unknown", "not computed yet"):
+            self.assertIn(word, words)
+
+    def test_stands_where_it_is_infinite_because_no_block_falls(self):
+        self.spectrum_with(np.repeat([S, F_MINUS], 6), "fall_time", np.repeat([np.inf, 3.0], 6))
+        stands, topples, unknown = self.shares("--field", "fall_time")
+        self.assertAlmostEqual(stands, 1 / 2, delta=0.01)
+        self.assertEqual((topples, unknown), (0, 0))
+
+    def test_hides_no_point_with_a_worse_verdict(self):
+        codes = np.full(3000, S)
+        codes[9::300] = F_MINUS
+        codes[110::300] = UNDECIDED
+        self.spectrum_with(codes, "margin", np.ones(3000))
+        _, topples, unknown = self.shares("--field", "margin")
+        for share in (topples, unknown):
+            self.assertAlmostEqual(share, 10 / 1000, delta=0.002)  # ten columns of pixels, which have another point in the middle
+
+    def test_with_a_sign_has_no_colour_at_0_and_an_even_scale(self):
+        self.spectrum_with(np.repeat([F_MINUS, F_MINUS, F_MINUS, S, S], 4), "margin", np.repeat([-99, -2, 0, 1, 2], 4))
+        row = self.map("--field", "margin")[300]
+        colour = [row[int((i + 0.5) / 5 * len(row))] for i in range(5)]
+        np.testing.assert_array_equal(colour[0], colour[1])  # beyond -2
+        self.assertLess(np.ptp(colour[2]), 3)
+        self.assertGreater(colour[1][0], colour[1][2])  # red
+        self.assertLess(colour[4][0], colour[4][2])
+
+    def test_of_counts_has_no_value_at_their_flags(self):
+        flags = np.array([65533, 65534, 65535], np.uint16)
+        self.spectrum_with(np.full(15, S), "impacts", np.repeat(np.array([1, 3, 65535], np.uint16), 5), fill=65534,
+                           flag_values=flags)
+        self.assertIn("infinite", self.words("--field", "impacts"))
+        self.assertIn("3.00", self.words("--field", "impacts"))  # a tick of the colour bar
+        black = (self.map("--field", "impacts") == 0).all(axis=2).mean()
+        self.assertAlmostEqual(black, 1 / 3, delta=0.01)
+
+    def test_states_its_unit(self):
+        self.spectrum_with([S, S], "velocity", [0.1, 0.3], units="rad")
+        self.assertIn("the velocity [rad]", self.words("--field", "velocity"))
+
+    def test_along_one_axis_is_a_line(self):
+        values = np.array([0.5, 0.7, np.inf, 0.9, 1.1, 0.2])
+        self.spectrum_with(np.reshape([S, S, F_MINUS, S, UNDECIDED, S], (6, 1)), "peak", values[:, None])
+        _, ax = pyplot.subplots()
+        overturn.plot.spectrum(self.folder / "spectrum.h5", field="peak", ax=ax)
+        x, y = ax.lines[0].get_data()
+        np.testing.assert_array_equal(x, np.arange(1.0, 7))
+        np.testing.assert_array_equal(y, [0.5, 0.7, np.nan, 0.9, np.nan, 0.2])
+        self.assertEqual(ax.get_ylabel(), "the peak")
+        self.assertIn("pulse amplitude", ax.get_xlabel())
+        low, high = ax.get_ylim()
+        self.assertTrue(low < 0.2 and high > 0.9, (low, high))
+        pyplot.close(ax.figure)
+        _, topples, unknown = self.shares("--field", "peak")
+        for share in (topples, unknown):
+            self.assertAlmostEqual(share, 0.9 / 5.9, delta=0.02)  # six bands with gaps
+
+    def test_is_that_of_the_program(self):
+        self.compute()
+        panels = overturn.plot.spectrum(self.folder / "spectrum.h5", field="peak")
+        self.assertEqual(len(panels), 8)
+        bars = [axes for axes in panels[0].figure.axes if axes not in panels]
+        self.assertEqual([bar.get_ylabel() for bar in bars], ["largest |theta| / alpha"])
+        with overturn.open(self.folder / "spectrum.h5") as dataset:
+            peak = dataset["peak"].values[np.isin(dataset["region"].values, [0, 1, 2])]
+        np.testing.assert_allclose(bars[0].get_ylim(), [peak.min(), peak.max()])
+        for field in ("margin", "impacts", "angle", "velocity"):
+            overturn.plot.spectrum(self.folder / "spectrum.h5", field=field)
+        pyplot.close("all")
+
+
+class TestARefusal(Field):
+    def test_of_what_is_no_field_with_values(self):
+        self.spectrum_with([S, S], "status", [0, 1], units="", fill=255)
+        for name in ("region", "status", "frequency"):
+            self.refuses(2, f"{name} is no field with values", "--field", name)
+        self.refuses(74, "no field peak; add it to output.fields", "--field", "peak")
+
+    def test_of_a_field_and_the_verdict(self):
+        self.spectrum_with([S, S], "peak", [0, 1])
+        self.refuses(2, "not allowed with argument", "--field", "peak", "--verdict")
+        with self.assertRaisesRegex(overturn.ToolError, "not both"):
+            overturn.plot.spectrum(self.folder / "spectrum.h5", field="peak", verdict=True)
+
+
+if __name__ == "__main__":
+    unittest.main()
