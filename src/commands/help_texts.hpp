@@ -166,6 +166,7 @@ and so on. All tools have --help.
   overturn-plot-accuracy   draws error and wrong verdicts against time
   overturn-plot-landing    draws the end state of each point of a spectrum in phase space
   overturn-plot-phase      draws the regions in phase space
+  overturn-report          makes a page from the answers of overturn assess
   overturn-to-csv          writes a result as a table
   overturn-synthetic-record
                            writes a synthetic recorded motion)";

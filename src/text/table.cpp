@@ -28,12 +28,16 @@ public:
     /// Whether the value that was read last is the last one of its row.
     bool ends_row() const { return ends_row_; }
 
+    /// Whether the value that was read last is in quotes.
+    bool was_quoted() const { return was_quoted_; }
+
     /// Reads the next value, in UTF-8. It is valid until the next call.
     std::string_view next()
     {
         line_ = next_line_;
         column_ = ends_row_ ? 1 : column_ + 1;
-        const std::string_view value = rest_.starts_with('"') ? quoted_value() : plain_value();
+        was_quoted_ = rest_.starts_with('"');
+        const std::string_view value = was_quoted_ ? quoted_value() : plain_value();
         if (!is_utf8(value)) {
             refuse("{} is not UTF-8. Save the table in UTF-8.", quoted_bytes(value));
         }
@@ -114,6 +118,7 @@ private:
     std::int64_t column_ = 0;
     std::int64_t next_line_ = 1;
     bool ends_row_ = true;
+    bool was_quoted_ = false;
 };
 
 /// Reads numbers with a decimal point or, unless commas separate the values, a decimal comma.
@@ -163,6 +168,11 @@ std::vector<TableColumn> read_names(Values& values)
         if (name.empty()) {
             values.refuse("the column has no name. Name every column in the first line.");
         }
+        if (!values.was_quoted() && name.find_first_of(",;\t|") != std::string::npos) {
+            values.refuse("{} is one name. Separate all names and values by commas, or all by "
+                          "semicolons or tabs.",
+                          quoted_bytes(name));
+        }
         const auto is_same = [&](const TableColumn& other) { return other.name == name; };
         if (std::any_of(columns.begin(), columns.end(), is_same)) {
             values.refuse("the name {} is repeated. Give every column a name of its own.",
@@ -170,13 +180,6 @@ std::vector<TableColumn> read_names(Values& values)
         }
         columns.push_back({std::move(name), {}, {}});
     } while (!values.ends_row());
-    for (const TableColumn& column : columns) { // with a column that the others do not separate
-        if (column.name.find_first_of(",;\t|") != std::string::npos) {
-            values.refuse("{} is one name. Separate all names and values by commas, or all by "
-                          "semicolons or tabs.",
-                          quoted_bytes(column.name));
-        }
-    }
     return columns;
 }
 

@@ -13,7 +13,7 @@ from program import Scratch, checksum
 
 FEW = ("--set", "plane.frequency.count=30", "--set", "plane.amplitude.count=60")
 CODE_OF_NO_FLIP, CODE_OF_UNDECIDED = 253, 254
-UNSAFE, SAFE, UNDECIDED = "#f4e3b0", "#8bc77f", "#f3b3d6"  # shades of plot_boundary
+UNSAFE, SAFE, UNDECIDED = "#b41a1c", "#f3f8ef", "#969696"  # shades of plot_boundary
 
 
 class ABoundary(Scratch):

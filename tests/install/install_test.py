@@ -88,13 +88,16 @@ class AnInstallation(unittest.TestCase):
         run(self.overturn, "history", self.folder / "job.toml", "--at", "amplitude=3.5", "-o", history)
         run(self.overturn, "boundary", self.folder / "job.toml", "-o", boundary)
         run(self.overturn, "accuracy", self.folder / "job.toml", "-o", accuracy)
+        (self.folder / "objects.csv").write_text("name,width,height\nvase,0.2,0.5\n")
+        answers = self.folder / "answers.json"
+        answers.write_text(run(self.overturn, "assess", self.folder / "objects.csv", "--period", "0.5", "--json"))
         hazard = self.folder / "hazard.txt"
         hazard.write_text("# pga [g]\n0.1 0.01\n2 1e-6\n")
         outputs = {"plot-spectrum": (self.spectrum, "spectrum.png"), "plot-landing": (self.spectrum, "landing.png"),
                    "plot-history": (history, "history.png"), "plot-boundary": (boundary, "boundary.png"),
                    "plot-accuracy": (accuracy, "accuracy.png"), "plot-phase": ("regions", "phase.png"),
                    "plot-fragility": (recorded, "fragility.png"), "plot-risk": (recorded, hazard, "risk.png"),
-                   "to-csv": (self.spectrum, "spectrum.csv")}
+                   "to-csv": (self.spectrum, "spectrum.csv"), "report": (answers, "answers.html")}
         for tool, (*arguments, output) in outputs.items():
             run(self.prefix / f"bin/overturn-{tool}", *arguments, "-o", self.folder / output)
             self.assertGreater((self.folder / output).stat().st_size, 100, tool)

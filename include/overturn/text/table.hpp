@@ -31,8 +31,8 @@ inline constexpr std::size_t largest_table_file = std::size_t(1) << 32; ///< [by
 
 /// Reads the text of a file, in UTF-8; `name` replaces the path in messages. The first line names
 /// the columns; what separates the first two names separates all values. Unless these are commas,
-/// numbers may have a decimal comma. Lines end with LF or CR LF; empty ones at the end are skipped. text_column: a
-/// column whose values are texts even if they look like numbers. Throws Error.
+/// numbers may have a decimal comma. Lines end with LF or CR LF; empty ones at the end are skipped.
+/// text_column: a column whose values are texts even if they look like numbers. Throws Error.
 Table read_table(std::string_view text, const std::string& name, std::string_view text_column = "");
 
 } // namespace overturn
