@@ -16,8 +16,8 @@ from overturn.regions import NOT_COMPUTED, REGIONS
 ALL = [*REGIONS, NOT_COMPUTED]
 RECORD = f"""
     scene.record = "{JOBS / 'synthetic.AT2'}"
-    plane.pga = {{ first = 0.2, last = 2, count = 12 }}
-    plane.size = {{ first = 0.3, last = 3, count = 12 }}
+    plane.pga = {{ first = 0.2, last = 2, count = 6 }}
+    plane.size = {{ first = 0.3, last = 3, count = 6 }}
     plane.slenderness = 0.25
     plane.restitution_of_maximum = 0.9
     output.fields = ["region", "peak"]
@@ -95,7 +95,8 @@ class TestALegend(Recorded):
         self.assert_within("spectrum.h5", "hazard.csv", "--samples", "2", tool="plot_risk")
 
     def test_of_an_accuracy_study_is_within_it(self):
-        self.overturn("accuracy", "study.h5", "plane.amplitude.count=20", job=JOBS / "figure_07a.toml")
+        self.overturn("accuracy", "study.h5", "plane.frequency.count=4", "plane.amplitude.count=6",
+                      job=JOBS / "figure_07a.toml")
         self.assert_within("study.h5", tool="plot_accuracy")
 
 
