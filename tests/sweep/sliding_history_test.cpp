@@ -101,7 +101,7 @@ TEST(HistoryWithSlip, EndsAsThePointOfASpectrum)
         } else {
             EXPECT_EQ(last.angle, 0);
             EXPECT_EQ(last.slide_velocity, 0);
-            EXPECT_EQ(last.time, std::max(history.time_of_rest, history.end_of_pulse));
+            EXPECT_DOUBLE_EQ(last.time, std::max(history.time_of_rest, history.end_of_pulse));
             EXPECT_TRUE(std::isinf(history.time_of_fall));
         }
     });

@@ -93,6 +93,7 @@ template <Number S, std::size_t count>
 S root_of_polynomial(const std::array<S, count>& c, S low, S high, const S& guess)
 {
     S t = guess;
+    S last_step(0); // of Newton's method, of which the error is then about step^3 / last_step^2
     for (int i = 0; i < 100 && high - low > std::numeric_limits<S>::epsilon() * high; ++i) {
         S value = c[count - 1];
         S slope(0);
@@ -107,9 +108,13 @@ S root_of_polynomial(const std::array<S, count>& c, S low, S high, const S& gues
         const S newton = slope < 0 ? S(t - value / slope) : high;
         const bool is_inside = newton > low && newton < high;
         const S next = is_inside ? newton : S((low + high) * S(0.5));
-        if (is_inside && abs(next - t) <= std::numeric_limits<S>::epsilon() * high) {
+        const S step = is_inside ? S(abs(next - t)) : S(0);
+        const S allowed = std::numeric_limits<S>::epsilon() * high;
+        if (is_inside &&
+            (step <= allowed || step * step * step <= allowed * last_step * last_step)) {
             return next;
         }
+        last_step = step;
         t = next;
     }
     return high;
