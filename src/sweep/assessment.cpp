@@ -310,6 +310,12 @@ ObjectAnswer answer_of_cases(std::span<const ObjectCase> cases)
             answer.pga = std::max(answer.pga, each.pga);
             answer.toppling += each.verdict == Verdict::topples;
             answer.undecided += each.verdict == Verdict::undecided;
+            if (lowest.pga && each.verdict != Verdict::topples) {
+                const double factor = *lowest.pga / each.pga;
+                answer.topples_below = answer.topples_below || factor < 1;
+                answer.nearest_factor =
+                    factor < 1 ? answer.nearest_factor : std::min(answer.nearest_factor, factor);
+            }
             answer.slides = answer.slides || !(each.slide_peak == 0);
             const double slide = each.slide_peak == 0 ? 0 : each.slide_peak * each.size;
             answer.slide = answer.slide < slide || std::isnan(slide) ? slide : answer.slide;

@@ -108,6 +108,22 @@ class Assess(Scratch):
         self.assertAlmostEqual(float(rows[2]["topples_from"]), 0.903473050, delta=1e-4)
         self.assertEqual(rows[0]["peak_of_alpha"], "")  # infinite
 
+    def test_notes_how_near_a_flip_the_strength_is(self):
+        self.write_table(TABLE)
+        for pga, note in (("0.86", "near a flip: 5.1 % more topples it"), ("0.5", ""),
+                          ("1.9", "topples at less than the asked strength")):  # safe from 1.84 to 2.13 g
+            self.assertEqual(self.rows("--period", "0.5", "--pga", pga)["statue"]["note"], note)
+        # Of each record at its own strength.
+        for name, peak in (("weak", 0.05), ("strong", 0.5)):
+            samples = [0, *[peak] * 5, *[-peak] * 5, 0]
+            (self.folder / f"{name}.txt").write_text("".join(f"{i / 10},{a}\n" for i, a in enumerate(samples)))
+        records = ("--record", "weak.txt", "--record", "strong.txt", "--set", "scene.units=g")
+        lowest = self.rows(*records)["statue"]["topples_from"]
+        self.assertLess(lowest, 0.5)
+        scale = 0.97 * lowest / 0.5
+        self.assertEqual(self.rows(*records, "--scale", str(scale))["statue"]["note"],
+                         "near a flip: 3.1 % more topples it")
+
     def test_without_a_strength_gives_no_verdict(self):
         self.write_table(TABLE)
         rows = self.rows("--period", "0.5")

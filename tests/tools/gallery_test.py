@@ -16,7 +16,7 @@ BEGINNINGS = {".png": b"\x89PNG", ".pdf": b"%PDF"}
 class TestTheGallery(InAFolder):
     def test_contains_every_figure_in_both_formats_and_nothing_else(self):
         pictures = self.folder / "pictures"
-        run = self.run_tool("-o", pictures, "--points", "60", tool="paper/gallery", timeout=280)
+        run = self.run_tool("-o", pictures, "--points", "30", tool="paper/gallery", timeout=280)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(list(self.folder.iterdir()), [pictures])
         files = sorted(path.name for path in pictures.iterdir())

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -72,7 +73,11 @@ struct ObjectAnswer {
     // If a strength is asked for:
     std::optional<Verdict> verdict; ///< the worst one
     double pga = 0;                 ///< the largest one
-    std::int64_t toppling = 0;      ///< number of cases that topple
+    /// The factor on the strength with which another case topples it, the smallest one found;
+    /// infinite if there is none.
+    double nearest_factor = std::numeric_limits<double>::infinity();
+    bool topples_below = false; ///< in a case that does not topple at the asked strength
+    std::int64_t toppling = 0;  ///< number of cases that topple
     std::int64_t undecided = 0;
     std::int64_t cases = 0;
     double peak = 0;  ///< the largest |theta| / alpha; infinite if it topples, NaN if undecided

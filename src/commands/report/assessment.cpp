@@ -128,12 +128,14 @@ std::string note_on(const ObjectAnswer& answer)
     if (answer.undecided_pga) {
         notes.push_back(fmt::format("undecided from {:.4f} g", *answer.undecided_pga));
     }
-    if (answer.verdict == Verdict::safe && answer.toppling_pga) {
-        const double above = *answer.toppling_pga / answer.pga - 1;
-        if (above < 0) {
+    if (answer.verdict == Verdict::safe) {
+        constexpr double near = 1.1;
+        if (answer.topples_below) {
             notes.push_back("topples at less than the asked strength");
-        } else if (above < 0.1) {
-            notes.push_back(fmt::format("near a flip: {:.2g} % more topples it", 100 * above));
+        }
+        if (answer.nearest_factor < near) {
+            notes.push_back(fmt::format("near a flip: {:.2g} % more topples it",
+                                        100 * (answer.nearest_factor - 1)));
         }
     }
     if (!answer.toppling_pga) {
