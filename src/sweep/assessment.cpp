@@ -105,7 +105,7 @@ void judge(const Problem& problem, const std::vector<std::size_t>& points, int t
         Problem accurate = problem;
         accurate.numerics = most_accurate;
         accurate.fields = {field};
-        const Tiling tiling = contiguous_tiling(problem.grid.shape(), 4 * threads);
+        const Tiling tiling = contiguous_tiling(problem.grid.shape(), std::int64_t(4) * threads);
         std::vector<std::vector<double>> tiles(std::size_t(tiling.size()));
         in_threads(
             tiles.size(), threads,
@@ -159,9 +159,9 @@ LowestToppling lowest_toppling(const Scene& scene, const BoundaryLine& line, dou
         }
         const PointRun run(scene, std::move(points), widest_kernel(), drop_requested);
         const Outcomes outcomes = outcomes_of(run, numerics, {.region = true}, 0);
-        std::vector<Verdict> verdicts;
-        for (int i = 0; i < outcomes.size(); ++i) {
-            verdicts.push_back(verdict_of(outcomes[std::size_t(i)].region));
+        std::vector<Verdict> verdicts(accelerations.size());
+        for (std::size_t i = 0; i < verdicts.size(); ++i) {
+            verdicts[i] = verdict_of(outcomes[i].region);
         }
         return verdicts;
     };

@@ -131,7 +131,7 @@ std::string note_on(const ObjectAnswer& answer)
     if (answer.verdict == Verdict::safe) {
         constexpr double near = 1.1;
         if (answer.topples_below) {
-            notes.push_back("topples at less than the asked strength");
+            notes.emplace_back("topples at less than the asked strength");
         }
         if (answer.nearest_factor < near) {
             notes.push_back(fmt::format("near a flip: {:.2g} % more topples it",
