@@ -103,6 +103,7 @@ int assess(const AssessOptions& options)
     std::optional<Progress> progress;
     const AssessmentQuestion question{.has_strength = options.pga || options.scale,
                                       .pga_max = options.pga_max,
+                                      .is_fine = options.fine,
                                       .threads =
                                           int(std::max(1U, std::thread::hardware_concurrency())),
                                       .progress = [&](std::size_t done, std::size_t all) {

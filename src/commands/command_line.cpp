@@ -238,6 +238,8 @@ void add_assess_arguments(CLI::App& command, AssessOptions& options)
              "Largest peak ground acceleration of the search")
         ->check(positive_up_to(largest_pga))
         ->capture_default_str();
+    command.add_flag("--fine", options.fine,
+                     "Search the strengths of every case as overturn topple does; slower");
     add_text(command, "--set", options.overrides, "scene.KEY=VALUE",
              "Set a key of [scene]; repeatable")
         ->allow_extra_args(false);

@@ -78,6 +78,7 @@ struct AssessOptions {
     std::optional<double> scale;        ///< of the records [1]
     std::vector<std::string> overrides; ///< of keys of [scene]
     double pga_max = 5;                 ///< the largest acceleration searched, over g [1]
+    bool fine = false;                  ///< whether strengths are searched as by topple
     bool json = false;
     std::string csv; ///< path of a table; empty: none
 };

@@ -75,9 +75,10 @@ A row of the table is an object; columns are quantities of a block, such as widt
 incline [rad] and friction (see overturn keys block), and any others, such as name. Without a
 column of restitutions, r is r_max.
 
-The search for the lowest toppling strength ends at --pga-max and has steps of 0.5 % under a
-record, so that narrower ranges may be missed, and is refined to 1e-4. overturn topple gives all
-ranges of an object.)";
+The search for the strengths that topple an object ends at --pga-max. Its steps are at most 0.5 %,
+so that narrower ranges may be missed, and ends of ranges are refined to 1e-4; with --fine it is that
+of overturn topple, which gives all ranges of an object. The note of an object that does not topple
+has the nearest toppling strengths, if one is less or up to 10 % more.)";
 
 inline constexpr const char* check = R"(Example:
   overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }'

@@ -132,69 +132,45 @@ void judge(const Problem& problem, const std::vector<std::size_t>& points, int t
     }
 }
 
-} // namespace
+using VerdictsAt = std::function<std::vector<Verdict>(std::span<const double> accelerations)>;
 
-LowestToppling lowest_toppling(const Scene& scene, const BoundaryLine& line, double lifting,
-                               double end, double included, const DropRequested& drop_requested)
+/// The first acceleration of a scan, which ascends or descends, at which the block topples.
+struct FirstToppling {
+    std::optional<double> pga;       ///< at most `width_of_lowest` before it, the block is safe
+    std::optional<double> undecided; ///< the first one before it that could not be settled
+};
+
+/// safe: an acceleration before those of the scan.
+FirstToppling first_toppling(const VerdictsAt& verdicts_at, std::span<const double> scan,
+                             double safe)
 {
-    LowestToppling lowest{.pga = {}, .undecided = {}, .end = end};
-    lowest.end = std::min(end, last_before_free_fall(scene, line));
-    if (!(lifting < lowest.end)) {
-        return lowest;
-    }
-    std::vector<double> scan = scanned_accelerations(scene, lifting, lowest.end);
-    const double steps = std::ceil(std::log(lowest.end / lifting) / toppling_step);
-    for (double i = 1; i < steps; ++i) {
-        scan.push_back(lifting * std::pow(lowest.end / lifting, i / steps));
-    }
-    if (lifting < included && included < lowest.end) {
-        scan.push_back(included);
-    }
-    std::ranges::sort(scan);
-    const Numerics numerics = numerics_of_search(scene, line.point);
-    const auto verdicts_at = [&](std::span<const double> accelerations) {
-        std::vector<Point> points(accelerations.size(), line.point);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            points[i].amplitude = accelerations[i] / line.unit;
-        }
-        const PointRun run(scene, std::move(points), widest_kernel(), drop_requested);
-        const Outcomes outcomes = outcomes_of(run, numerics, {.region = true}, 0);
-        std::vector<Verdict> verdicts(accelerations.size());
-        for (std::size_t i = 0; i < verdicts.size(); ++i) {
-            verdicts[i] = verdict_of(outcomes[i].region);
-        }
-        return verdicts;
-    };
-    double safe = lifting; // the largest settled acceleration below those that are searched
+    FirstToppling first;
     constexpr std::size_t at_once = 32;
-    for (std::size_t begin = 0; begin < scan.size(); begin += at_once) {
-        const std::size_t count = std::min(at_once, scan.size() - begin);
-        const std::span<const double> part(scan.data() + begin, count);
+    for (std::size_t begin = 0; begin < scan.size() && !first.pga; begin += at_once) {
+        const auto part = scan.subspan(begin, std::min(at_once, scan.size() - begin));
         const std::vector<Verdict> verdicts = verdicts_at(part);
-        for (std::size_t i = 0; i < count && !lowest.pga; ++i) {
+        for (std::size_t i = 0; i < part.size() && !first.pga; ++i) {
             if (verdicts[i] == Verdict::topples) {
-                lowest.pga = part[i];
+                first.pga = part[i];
             } else if (verdicts[i] == Verdict::safe) {
                 safe = part[i];
-            } else if (!lowest.undecided) {
-                lowest.undecided = part[i];
+            } else if (!first.undecided) {
+                first.undecided = part[i];
             }
-        }
-        if (lowest.pga) {
-            break;
         }
     }
     // In steps of a ninth, as many as a pack has lanes at once.
-    while (lowest.pga && *lowest.pga > safe * (1 + width_of_lowest)) {
+    while (first.pga &&
+           std::abs(*first.pga - safe) > width_of_lowest * std::min(*first.pga, safe)) {
         std::vector<double> between;
         for (int i = 1; i <= 8; ++i) {
-            between.push_back(safe + (*lowest.pga - safe) * i / 9);
+            between.push_back(safe + (*first.pga - safe) * i / 9);
         }
         const std::vector<Verdict> verdicts = verdicts_at(between);
         bool has_settled = false;
         for (std::size_t i = 0; i < between.size(); ++i) {
             if (verdicts[i] == Verdict::topples) {
-                lowest.pga = between[i];
+                first.pga = between[i];
                 has_settled = true;
                 break;
             }
@@ -204,12 +180,73 @@ LowestToppling lowest_toppling(const Scene& scene, const BoundaryLine& line, dou
             }
         }
         if (!has_settled) {
-            lowest.undecided =
-                std::min(lowest.undecided.value_or(between.front()), between.front());
+            first.undecided = first.undecided.value_or(between.front());
             break;
         }
     }
-    return lowest;
+    return first;
+}
+
+/// In steps of at most `toppling_step`.
+TopplingStrengths strengths_in_steps(const Scene& scene, const BoundaryLine& line,
+                                     const StrengthSearch& search, double end)
+{
+    const double lifting = search.lifting;
+    std::vector<double> scan = scanned_accelerations(scene, lifting, end, search.asked);
+    const double steps = std::ceil(std::log(end / lifting) / toppling_step);
+    for (double i = 1; i < steps; ++i) {
+        scan.push_back(lifting * std::pow(end / lifting, i / steps));
+    }
+    std::ranges::sort(scan);
+    const Numerics numerics = numerics_of_search(scene, line.point);
+    const VerdictsAt verdicts_at = [&](std::span<const double> accelerations) {
+        std::vector<Point> points(accelerations.size(), line.point);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            points[i].amplitude = accelerations[i] / line.unit;
+        }
+        const PointRun run(scene, std::move(points), widest_kernel());
+        const Outcomes outcomes = outcomes_of(run, numerics, {.region = true}, 0);
+        std::vector<Verdict> verdicts(accelerations.size());
+        for (std::size_t i = 0; i < verdicts.size(); ++i) {
+            verdicts[i] = verdict_of(outcomes[i].region);
+        }
+        return verdicts;
+    };
+    TopplingStrengths strengths{.end = end};
+    const FirstToppling lowest = first_toppling(verdicts_at, scan, lifting);
+    strengths.lowest = lowest.pga;
+    strengths.undecided = lowest.undecided;
+    if (search.topples_at_asked || !lowest.pga || *lowest.pga > search.asked) {
+        strengths.above = lowest.pga;
+        return strengths;
+    }
+    const std::span<const double> all(scan);
+    const auto place = std::size_t(std::ranges::lower_bound(scan, search.asked) - scan.begin());
+    std::vector<double> downwards(scan.rend() - std::ptrdiff_t(place), scan.rend());
+    strengths.below = first_toppling(verdicts_at, downwards, search.asked).pga;
+    strengths.above = first_toppling(verdicts_at, all.subspan(place), search.asked).pga;
+    return strengths;
+}
+
+} // namespace
+
+TopplingStrengths toppling_strengths(const Scene& scene, const BoundaryLine& line,
+                                     const StrengthSearch& search)
+{
+    const double end = std::min(search.end, last_before_free_fall(scene, line));
+    if (!(search.lifting < end)) {
+        return {.end = end};
+    }
+    if (!search.is_fine) {
+        return strengths_in_steps(scene, line, search, end);
+    }
+    const VerdictRanges ranges =
+        verdict_ranges(scene, line, search.lifting, search.end, search.asked, nullptr);
+    return {.lowest = ranges.nearest_above(Verdict::topples, 0),
+            .undecided = ranges.nearest_above(Verdict::undecided, 0),
+            .end = ranges.end_of_search(),
+            .below = ranges.nearest_below(Verdict::topples, search.asked),
+            .above = ranges.nearest_above(Verdict::topples, search.asked)};
 }
 
 std::vector<ObjectCase> cases_of(const Problem& problem, const AssessmentQuestion& question)
@@ -246,11 +283,16 @@ std::vector<ObjectCase> cases_of(const Problem& problem, const AssessmentQuestio
             each.lifting_pga = lifting_pga(scene, each.point);
             each.moving_pga = moving_pga(scene, each.point);
             const double sign = std::signbit(each.point.amplitude) ? -1 : 1;
-            each.lowest = lowest_toppling(scene, {each.point, sign * unit}, each.lifting_pga,
-                                          std::max(question.pga_max, each.pga), each.pga, nullptr);
-            if (each.verdict == Verdict::topples &&
-                !(each.lowest.pga && *each.lowest.pga <= each.pga)) {
-                each.lowest.pga = each.pga; // the search missed a narrow range
+            each.strengths =
+                toppling_strengths(scene, {each.point, sign * unit},
+                                   {.lifting = each.lifting_pga,
+                                    .end = std::max(question.pga_max, each.pga),
+                                    .asked = each.pga,
+                                    .topples_at_asked = each.verdict == Verdict::topples,
+                                    .is_fine = question.is_fine});
+            if (std::optional<double>& lowest = each.strengths.lowest;
+                each.verdict == Verdict::topples && !(lowest && *lowest <= each.pga)) {
+                lowest = each.pga; // the search missed a narrow range
             }
         },
         [&](std::size_t done) {
@@ -295,26 +337,26 @@ ObjectAnswer answer_of_cases(std::span<const ObjectCase> cases)
                         .median = {},
                         .percentile_16 = {},
                         .verdict = {}};
-    std::vector<double> strengths;
+    std::vector<double> not_safe;
     const bool has_strength = cases.front().verdict.has_value();
     for (const ObjectCase& each : cases) {
-        const LowestToppling& lowest = each.lowest;
+        const TopplingStrengths& strengths = each.strengths;
         answer.lifting_pga = std::min(answer.lifting_pga, each.lifting_pga);
         answer.moving_pga = std::min(answer.moving_pga, each.moving_pga);
-        answer.toppling_pga = lesser_of(answer.toppling_pga, lowest.pga);
-        answer.undecided_pga = lesser_of(answer.undecided_pga, lowest.undecided);
-        answer.end_of_search = std::min(answer.end_of_search, lowest.end);
-        strengths.push_back(lowest_not_safe(lowest.pga, lowest.undecided));
+        answer.toppling_pga = lesser_of(answer.toppling_pga, strengths.lowest);
+        answer.undecided_pga = lesser_of(answer.undecided_pga, strengths.undecided);
+        answer.end_of_search = std::min(answer.end_of_search, strengths.end);
+        not_safe.push_back(lowest_not_safe(strengths.lowest, strengths.undecided));
         ++answer.cases;
         if (has_strength) {
             answer.pga = std::max(answer.pga, each.pga);
             answer.toppling += each.verdict == Verdict::topples;
             answer.undecided += each.verdict == Verdict::undecided;
-            if (lowest.pga && each.verdict != Verdict::topples) {
-                const double factor = *lowest.pga / each.pga;
-                answer.topples_below = answer.topples_below || factor < 1;
-                answer.nearest_factor =
-                    factor < 1 ? answer.nearest_factor : std::min(answer.nearest_factor, factor);
+            if (each.verdict != Verdict::topples) {
+                answer.factor_below =
+                    std::max(answer.factor_below, strengths.below.value_or(0) / each.pga);
+                answer.factor_above =
+                    std::min(answer.factor_above, strengths.above.value_or(infinity) / each.pga);
             }
             answer.slides = answer.slides || !(each.slide_peak == 0);
             const double slide = each.slide_peak == 0 ? 0 : each.slide_peak * each.size;
@@ -326,9 +368,9 @@ ObjectAnswer answer_of_cases(std::span<const ObjectCase> cases)
         !(*answer.undecided_pga < *answer.toppling_pga)) {
         answer.undecided_pga.reset();
     }
-    std::ranges::sort(strengths);
-    answer.median = order_statistic(strengths, 0.5);
-    answer.percentile_16 = order_statistic(strengths, 0.16);
+    std::ranges::sort(not_safe);
+    answer.median = order_statistic(not_safe, 0.5);
+    answer.percentile_16 = order_statistic(not_safe, 0.16);
     if (has_strength) {
         answer.verdict = answer.toppling > 0    ? Verdict::topples
                          : answer.undecided > 0 ? Verdict::undecided

@@ -63,14 +63,17 @@ Verdict verdict_of(Region region)
 /// Under a pulse, steps of 0.1 times the acceleration that lifts the block find the flips, see
 /// docs/boundaries.md, but for narrow strips just above it, which slow pulses cause: there the
 /// steps are 200 times smaller.
-std::vector<double> scanned_accelerations(const Scene& scene, double first, double last)
+std::vector<double> scanned_accelerations(const Scene& scene, double first, double last,
+                                          double included)
 {
     const auto values = [](double from, double to, double steps, Spacing spacing) {
         return Axis(AxisRange{from, to, 1 + std::int64_t(std::ceil(steps)), spacing}).values();
     };
     if (scene.motion_traits().is_sensitive) {
-        return values(first, last, std::max(std::log(last / first) / toppling_step, 10.0),
-                      Spacing::log);
+        return with_neighbours(values(first, last,
+                                      std::max(std::log(last / first) / toppling_step, 10.0),
+                                      Spacing::log),
+                               included, scene);
     }
     const double low = std::min(1.3 * first, last);
     std::vector<double> all =
@@ -80,7 +83,7 @@ std::vector<double> scanned_accelerations(const Scene& scene, double first, doub
             low, last, std::clamp((last - low) / (0.1 * first), 10.0, 2000.0), Spacing::linear);
         all.insert(all.end(), rest.begin() + 1, rest.end());
     }
-    return all;
+    return with_neighbours(std::move(all), included, scene);
 }
 
 VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, double lifting,
@@ -95,8 +98,7 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
         ranges.all.push_back({0, end, Verdict::safe});
         return ranges;
     }
-    const std::vector<double> accelerations =
-        with_neighbours(scanned_accelerations(scene, lifting, end), included, scene);
+    const std::vector<double> accelerations = scanned_accelerations(scene, lifting, end, included);
     const Boundary boundary =
         boundary_on(scene, line, accelerations, widest_kernel(),
                     search_in(scene, std::isfinite(line.point.friction), drop_requested));

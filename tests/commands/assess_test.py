@@ -110,9 +110,10 @@ class Assess(Scratch):
 
     def test_notes_how_near_a_flip_the_strength_is(self):
         self.write_table(TABLE)
-        for pga, note in (("0.86", "near a flip: 5.1 % more topples it"), ("0.5", ""),
-                          ("1.9", "topples at less than the asked strength")):  # safe from 1.84 to 2.13 g
-            self.assertEqual(self.rows("--period", "0.5", "--pga", pga)["statue"]["note"], note)
+        for pga, note in (("0.86", "topples at 5.1 % more"), ("0.5", ""),
+                          ("1.9", "topples at 3.2 % less and 12 % more")):  # safe from 1.84 to 2.13 g
+            for fine in ((), ("--fine",)):
+                self.assertEqual(self.rows("--period", "0.5", "--pga", pga, *fine)["statue"]["note"], note)
         # Of each record at its own strength.
         for name, peak in (("weak", 0.05), ("strong", 0.5)):
             samples = [0, *[peak] * 5, *[-peak] * 5, 0]
@@ -122,7 +123,18 @@ class Assess(Scratch):
         self.assertLess(lowest, 0.5)
         scale = 0.97 * lowest / 0.5
         self.assertEqual(self.rows(*records, "--scale", str(scale))["statue"]["note"],
-                         "near a flip: 3.1 % more topples it")
+                         "topples at 3.1 % more")
+
+    def test_fine_has_the_ranges_of_topple(self):
+        self.write_table(TABLE)
+        for motion in (["--period", "0.5"], ["--record", f"{JOBS}/synthetic.AT2"]):
+            row = self.rows(*motion, "--pga", "0.4", "--pga-max", "1.5", "--fine")["vase"]
+            answer = json.loads(self.overturn("topple", "--width", "0.18", "--height", "0.45", *motion, "--pga", "0.4",
+                                              "--pga-max", "1.5", "--json").stdout)
+            self.assertEqual(row["topples_from"], answer["toppling_pga"][0][0])
+            self.assertEqual(row["end_of_search"], answer["end_of_search"])
+            if answer["toppling_pga_above"]:
+                self.assertAlmostEqual(row["factor_above"], answer["toppling_pga_above"] / 0.4, places=12)
 
     def test_without_a_strength_gives_no_verdict(self):
         self.write_table(TABLE)

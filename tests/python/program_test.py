@@ -203,5 +203,30 @@ class AResultFile(InAFolder):
             overturn.open("missing.h5")
 
 
+class AList(InAFolder):
+    def test_of_objects_as_a_path_or_as_columns(self):
+        columns = {"name": ["vase", "cabinet, low"], "width": np.array([0.18, 0.9]), "height": (0.45, 1.0)}
+        pathlib.Path("objects.csv").write_text('name,width,height\nvase,0.18,0.45\n"cabinet, low",0.9,1.0\n')
+        expected = overturn.assess("objects.csv", period=[0.3, 0.5], pga=0.5, fine=True)
+        answer = overturn.assess(columns, period=(0.3, 0.5), pga=np.float64(0.5), fine=True)
+        self.assertEqual([row["name"] for row in answer["objects"]], ["vase", "cabinet, low"])
+        self.assertEqual({**answer, "table": ""}, {**expected, "table": ""})
+        self.assertEqual([row["cases"] for row in answer["objects"]], [2, 2])
+        self.assertEqual(sorted(os.listdir()), ["objects.csv"])
+
+    def test_under_records(self):
+        records = [JOBS / "synthetic.AT2"]
+        row = overturn.assess({"width": [0.5], "height": [1.6]}, record=records, scale=1)["objects"][0]
+        self.assertEqual(row["topples_from"],
+                         overturn.assess({"width": [0.5], "height": [1.6]}, record=str(JOBS / "synthetic.*2"))[
+                             "objects"][0]["topples_from"])
+
+    def test_that_is_refused(self):
+        self.assert_fails(65, "width", overturn.assess, {"width": [-1], "height": [1]}, period=0.5)
+        self.assert_fails(2, "the ground motion is missing", overturn.assess, {"width": [1], "height": [1]})
+        with self.assertRaises(ValueError):
+            overturn.assess({"width": [1, 2], "height": [1]}, period=0.5)
+
+
 if __name__ == "__main__":
     unittest.main()

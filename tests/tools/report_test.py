@@ -114,7 +114,7 @@ class TestReport(InAFolder):
         self.assertEqual((self.folder / "answers.html").read_text(), "<p>mine</p>")
 
     def test_rounds_strengths_down(self):
-        self.assertEqual(report.toppling({"topples_from": 0.35249999}), "0.3524")
+        self.assertEqual(report.number(0.35249999, ""), "0.3524")
 
 
 if __name__ == "__main__":

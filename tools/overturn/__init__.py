@@ -1,4 +1,4 @@
-"""overturn from Python: the outcome of single blocks (evaluate), the program (run, check, topple), result files
+"""overturn from Python: the outcome of single blocks (evaluate), the program (run, check, topple, assess), result files
 (open), fragility curves (fragility), rates of overturning at a site (risk), pictures (plot), recorded motions
 (read_record) and those of floors (floor_motion). The other modules are shared by the tools.
 
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from overturn.fragility_curve import fragility as fragility
     from overturn.friction import supported_share as supported_share
     from overturn.program import ProgramError as ProgramError
+    from overturn.program import assess as assess
     from overturn.program import check as check
     from overturn.program import run as run
     from overturn.program import topple as topple
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from overturn.tool import ToolError as ToolError
 
 _NAMES = {"evaluation": ("evaluate", "Outcome", "Verdict"), "datasets": ("open",),
-          "program": ("run", "check", "topple", "ProgramError"), "fragility_curve": ("fragility", "Fragility"),
+          "program": ("run", "check", "topple", "assess", "ProgramError"), "fragility_curve": ("fragility", "Fragility"),
           "friction": ("supported_share",), "floors": ("floor_motion", "FloorMotion"),
           "records": ("read_record", "Record", "RecordError"), "tool": ("ToolError",)}
 _MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}

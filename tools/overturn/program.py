@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import csv
 import json
 import os
 import pathlib
@@ -110,6 +111,51 @@ def topple(*, direction: float | None = None, pulse: str | None = None, period: 
     for text in answer["warnings"]:
         warnings.warn(f"{text}.", stacklevel=2)
     return answer
+
+
+def assess(objects: str | os.PathLike[str] | Mapping[str, Any], *, period: Any = None, pulse: str | None = None,
+           record: str | os.PathLike[str] | list[str] | None = None, component: str | int | None = None,
+           pga: float | None = None, scale: float | None = None, direction: Any = None, pga_max: float | None = None,
+           fine: bool = False, overrides: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """Returns the answer of `overturn assess --json`: for each of many objects, whether it topples under one of several
+    motions, and the lowest peak acceleration that topples it.
+
+    objects: the path of a table, or its columns as a dictionary of arrays or lists of one length.
+    period: of the pulse [s]; direction [degree]: numbers, or arrays of them.
+    record: the path of a recorded motion, a pattern of several, or a list of them.
+    fine: whether the strengths are searched as by topple(), instead of in steps of 0.5 %.
+    overrides: keys of [scene] and their new values, such as {"scene.gravity": 1.62}.
+
+    The rows are in answer["objects"], the most vulnerable object first.
+
+    Warns of values that are probably in another unit. Raises ProgramError if the program fails.
+    """
+    lists = {"period": period, "direction": direction}
+    given = {"pulse": pulse, "component": component, "pga": pga, "scale": scale, "pga_max": pga_max,
+             **{name: ",".join(map(repr, _listed(value))) for name, value in lists.items() if value is not None}}
+    records = [] if record is None else _listed(record)
+    for name in records:
+        _expect_file_names(name, "scene.record")
+    options = [f"--{name.replace('_', '-')}={_option_text(value)}" for name, value in given.items()
+               if value is not None]
+    options += [f"--record={os.fspath(name)}" for name in records] + ["--fine"] * fine
+    with contextlib.ExitStack() as stack:
+        if isinstance(objects, Mapping):
+            text = stack.enter_context(tempfile.NamedTemporaryFile("w", encoding="utf-8", prefix="overturn-",
+                                                                   suffix=".csv", newline=""))
+            csv.writer(text).writerows([list(objects), *zip(*map(_listed, objects.values()), strict=True)])
+            text.flush()
+        path = text.name if isinstance(objects, Mapping) else os.fspath(objects)
+        answer = json.loads(_output_of([overturn_path(), "assess", path, "--json", *options,
+                                        *_set_arguments(overrides)], path, objects))
+    for text in answer["warnings"]:
+        warnings.warn(f"{text}.", stacklevel=2)
+    return answer
+
+
+def _listed(values):
+    values = values.tolist() if hasattr(values, "tolist") else values
+    return list(values) if isinstance(values, (list, tuple)) else [values]
 
 
 def _option_text(value):

@@ -57,10 +57,12 @@ h1 { font-size: 1.5rem; } h2 { font-size: 1.15rem; margin-top: 1.6rem; }
 table { border-collapse: collapse; width: 100%; font: 9.5pt/1.35 "Helvetica Neue", Arial, "DejaVu Sans", sans-serif; }
 th, td { text-align: right; padding: 0.2rem 0.45rem; border-bottom: 1px solid #ccc; vertical-align: top; }
 th:first-child, td:first-child, td.text, th.text { text-align: left; }
+td { white-space: nowrap; } td:first-child, td.text { white-space: normal; overflow-wrap: anywhere; min-width: 5rem; }
+.wide { overflow-x: auto; }
 thead { display: table-header-group; }
 .verdict { font-weight: bold; } .topples { color: {{ topples }}; }
 svg { width: 100%; height: auto; } .note { color: #444; font-size: 9.5pt; }
-@media print { body { margin: 0; max-width: none; font-size: 9.5pt; } tr, li, svg { break-inside: avoid; }
+@media print { body { margin: 0; max-width: none; font-size: 9.5pt; } table { font-size: 8.5pt; } tr, li, svg { break-inside: avoid; }
   @page { size: A4; margin: 15mm; } }
 </style>
 </head>
@@ -82,7 +84,7 @@ in at least one of up to {{ most_cases }} cases (motions, periods and directions
 {% else %}<p>In the order of the lowest strength that topples them; no strength was asked for.</p>{% endif %}
 <h2>Why</h2>
 {{ picture }}
-<table>
+<div class="wide"><table>
 <thead><tr><th>object</th>{% if asked %}<th class="text">verdict</th><th>cases that topple it</th><th>largest tilt over
 alpha</th>{% endif %}<th>lifts from [g]</th>{% if has_slip %}<th>slides from [g]</th>{% endif %}<th>topples from
 [g]</th>{% if most_cases > 1 %}<th>median [g]</th>{% endif %}{% if has_slip and asked %}<th>slides [mm]</th>{% endif %}<th
@@ -90,17 +92,19 @@ class="text">note</th></tr></thead>
 <tbody>{% for each in objects %}
 <tr><td>{{ each.title }}</td>{% if asked %}<td class="text verdict{{ ' topples' if each.verdict == 'topples' }}">{{ each.verdict }}</td>
 <td>{{ (100 * each.share_toppling)|round|int }} %</td><td>{{ each|tilt }}</td>{% endif %}<td>{{ each.lifts_from|number('never') }}</td>{%
-if has_slip %}<td>{{ each.slides_from|number('lifts first') }}</td>{% endif %}<td>{{ each|toppling }}</td>{% if most_cases > 1 %}<td>{{
-each.median|number('above ' ~ (each.end_of_search|number(''))) }}</td>{% endif %}{% if has_slip and asked %}<td>{{ each|slide }}</td>{%
+if has_slip %}<td>{{ each.slides_from|number('lifts first') }}</td>{% endif %}<td>{{
+each.topples_from|number(each|above_search) }}</td>{% if most_cases > 1 %}<td>{{
+each.median|number(each|above_search) }}</td>{% endif %}{% if has_slip and asked %}<td>{{ each|slide }}</td>{%
 endif %}<td class="text">{{ each.note }}</td></tr>{% endfor %}
-</tbody></table>
+</tbody></table></div>
 <h2>What is not known</h2>
 <ul>
 {% if undecided %}<li>Undecided: {{ undecided|map(attribute='title')|join(', ') }}. Treat them as objects that topple.</li>{% endif %}
 {% if unsettled %}<li>At lower strengths than those that topple them, undecided: {{ unsettled|map(attribute='title')|join(', ') }}.</li>{% endif %}
-{% if open_ended %}<li>Nothing is known above the search, {{ open_ended[0].end_of_search|number('') }} g, of: {{
+{% if open_ended %}<li>Nothing is known above the search, {{ '%.4g'|format(open_ended[0].end_of_search) }} g, of: {{
 open_ended|map(attribute='title')|join(', ') }}.</li>{% endif %}
-<li>Strengths are searched in steps of at most 0.5 %: narrower ranges that topple an object may be missed.</li>
+<li>Strengths are searched in {% if fine %}fine steps: only very narrow{% else %}steps of at most 0.5 %: narrower{% endif %} ranges
+that topple an object may be missed.</li>
 {% for each in assumptions %}<li>{{ each }}</li>
 {% endfor %}{% for each in warnings %}<li>Check the table: {{ each }}.</li>
 {% endfor %}</ul>
@@ -132,14 +136,12 @@ def answers_in(path, options):
 
 
 def number(value, otherwise):
-    return otherwise if value is None else f"{value:.4g}"
+    """Returns a strength, rounded down, or another text without one."""
+    return otherwise if value is None else f"{math.floor(value * 1e4) / 1e4:.4f}"
 
 
-def toppling(row):
-    """Returns the lowest strength that topples an object, rounded down, or the end of the search."""
-    if row["topples_from"] is None:
-        return f"above {row['end_of_search']:.4g}"
-    return f"{math.floor(row['topples_from'] * 1e4) / 1e4:.4f}"
+def above_search(row):
+    return f"above {row['end_of_search']:.4g}"
 
 
 def tilt(row):
@@ -165,7 +167,7 @@ def draw(rows, asked, measure):
     end = max(row["end_of_search"] for row in shown)
     known = [value for row in shown for value in (row["topples_from"], row["undecided_from"], asked) if value]
     right = min(end, 1.15 * max(known), 3 * asked if asked else math.inf) if known else end
-    figure, axes = pyplot.subplots(figsize=(8, 1.1 + 0.26 * len(shown)), layout="constrained")
+    figure, axes = pyplot.subplots(figsize=(8, 1.1 + 0.2 * len(shown)), layout="constrained")
     for i, row in enumerate(shown):
         searched = min(row["end_of_search"], right)
         topples = row["topples_from"] if row["topples_from"] is not None else math.inf
@@ -218,16 +220,16 @@ def page_of(answers):
     asked = answers["pga"] if is_asked else None
     has_slip = "slides_from" in rows[0]
     environment = Environment(autoescape=True)
-    environment.filters.update(number=number, toppling=toppling, tilt=tilt, slide=slide,
-                               strength=lambda value: f"{math.floor(value * 1e4) / 1e4:.4f} g")
+    environment.filters.update(number=number, above_search=above_search, tilt=tilt, slide=slide,
+                               strength=lambda value: f"{number(value, '')} g")
     measured = f"scale {answers['scale']:g} of every record" if answers["scale"] else f"{measure} {asked} g"
     return environment.from_string(PAGE).render(
         made_by=Markup(MADE_BY), title="Which objects topple?", motion=text, strength=measured if is_asked else "", asked=is_asked, objects=rows,
         toppling=[row for row in rows if row["verdict"] == "topples"],
-        near=[row for row in rows if row["verdict"] != "topples" and "near a flip" in row["note"]],
+        near=[row for row in rows if row["factor_below"] or (row["factor_above"] or math.inf) < 1.1],
         undecided=[row for row in rows if row["verdict"] == "undecided"],
         unsettled=[row for row in rows if row["undecided_from"] is not None and row["verdict"] != "undecided"],
-        open_ended=[row for row in rows if row["topples_from"] is None],
+        fine=answers["search"] == "fine", open_ended=[row for row in rows if row["topples_from"] is None],
         most_cases=max(row["cases"] for row in rows), has_slip=has_slip, picture=Markup(draw(rows, asked, measure)),
         assumptions=(*ASSUMPTIONS, WITH_FRICTION if has_slip else WITHOUT_FRICTION), warnings=answers["warnings"],
         version=answers["program_version"], table=answers["table"], measure=measure, gravity=answers["gravity"],

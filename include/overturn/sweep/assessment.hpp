@@ -13,20 +13,32 @@
 
 namespace overturn {
 
-/// The width to which the lowest toppling acceleration is refined, over the acceleration [1].
+/// The width to which the ends of toppling ranges are refined, over the acceleration [1].
 inline constexpr double width_of_lowest = 1e-4;
 
-/// The lowest peak ground acceleration over g at which a block topples, searched upwards in steps
-/// of at most `toppling_step`: ranges narrower than the steps may be missed.
-struct LowestToppling {
-    std::optional<double> pga;       ///< at most `width_of_lowest` below it, the block is safe
-    std::optional<double> undecided; ///< the lowest one below it that could not be settled
-    double end = 0;                  ///< of the search, if none topples
+/// The peak ground accelerations over g at which a block topples, as far as they were searched.
+struct TopplingStrengths {
+    std::optional<double> lowest{};
+    std::optional<double> undecided{}; ///< the lowest one below it that could not be settled
+    double end = 0;                    ///< of the search
+    // Of a block that does not topple at the asked strength, the nearest ones:
+    std::optional<double> below{};
+    std::optional<double> above{};
 };
 
-/// lifting: below it, the block is not lifted. included: a further acceleration of the search.
-LowestToppling lowest_toppling(const Scene& scene, const BoundaryLine& line, double lifting,
-                               double end, double included, const DropRequested& drop_requested);
+/// How the strengths of a line are searched.
+struct StrengthSearch {
+    double lifting;        ///< below it, the block is not lifted
+    double end;            ///< ends earlier if the vertical motion cancels gravity
+    double asked = 0;      ///< a further acceleration of the search; 0 if none is asked for
+    bool topples_at_asked; ///< the verdict there, if one is asked for
+    bool is_fine = false;  ///< as verdict_ranges(), instead of in steps of at most `toppling_step`
+};
+
+/// In steps, ranges that are narrower may be missed. The ends of ranges are refined: at most
+/// `width_of_lowest` away, the block does not topple.
+TopplingStrengths toppling_strengths(const Scene& scene, const BoundaryLine& line,
+                                     const StrengthSearch& search);
 
 /// An object under one motion in one direction.
 struct ObjectCase {
@@ -36,7 +48,7 @@ struct ObjectCase {
     double size = 0;         ///< R of the side plus [m]; NaN if it is not known
     double lifting_pga = 0;  ///< see lifting_pga()
     double moving_pga = 0;
-    LowestToppling lowest{};
+    TopplingStrengths strengths{};
 
     // If a strength is asked for:
     std::optional<Verdict> verdict{};
@@ -45,8 +57,9 @@ struct ObjectCase {
 };
 
 struct AssessmentQuestion {
-    bool has_strength; ///< whether the strength of the points is asked for
-    double pga_max;    ///< the end of the search, unless the strength is larger [1]
+    bool has_strength;    ///< whether the strength of the points is asked for
+    double pga_max;       ///< the end of the search, unless the strength is larger [1]
+    bool is_fine = false; ///< see StrengthSearch
     int threads = 1;
     /// Called again and again in the thread of the caller.
     std::function<void(std::size_t done, std::size_t all)> progress = nullptr;
@@ -73,11 +86,11 @@ struct ObjectAnswer {
     // If a strength is asked for:
     std::optional<Verdict> verdict; ///< the worst one
     double pga = 0;                 ///< the largest one
-    /// The factor on the strength with which another case topples it, the smallest one found;
-    /// infinite if there is none.
-    double nearest_factor = std::numeric_limits<double>::infinity();
-    bool topples_below = false; ///< in a case that does not topple at the asked strength
-    std::int64_t toppling = 0;  ///< number of cases that topple
+    /// The factors on the strength, the nearest ones to 1, with which a case topples it that does
+    /// not topple it at the asked strength; 0 and infinite if none was found.
+    double factor_below = 0;
+    double factor_above = std::numeric_limits<double>::infinity();
+    std::int64_t toppling = 0; ///< number of cases that topple
     std::int64_t undecided = 0;
     std::int64_t cases = 0;
     double peak = 0;  ///< the largest |theta| / alpha; infinite if it topples, NaN if undecided

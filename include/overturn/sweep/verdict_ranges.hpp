@@ -47,14 +47,16 @@ struct VerdictRanges {
     std::optional<double> nearest_above(Verdict verdict, double pga) const;
 };
 
-/// The accelerations over g at which the verdicts between `first` and `last` are searched, before
-/// the steps between them are halved.
-std::vector<double> scanned_accelerations(const Scene& scene, double first, double last);
+/// The accelerations over g, ascending, at which the verdicts between `first` and `last` are
+/// searched, before the steps between them are halved. With `included`, if it is between them;
+/// under a record, the steps next to it are smaller, 0.1 % up to 2 % away.
+std::vector<double> scanned_accelerations(const Scene& scene, double first, double last,
+                                          double included = 0);
 
 /// line: amplitudes in units of g. lifting: below it, the block is not lifted; end: of the search,
 /// which ends earlier if the vertical motion cancels gravity. included: an acceleration whose
-/// verdict the ranges must agree with; under a record, the steps next to it are smaller, 0.1 % up
-/// to 2 % away. drop_requested: see boundary_on().
+/// verdict the ranges must agree with, see scanned_accelerations(). drop_requested: see
+/// boundary_on().
 VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, double lifting,
                              double end, double included, const DropRequested& drop_requested);
 

@@ -69,6 +69,10 @@ Json row_of(const Job& job, const ObjectAnswer& answer)
         has_strength ? Json(double(answer.toppling) / double(answer.cases)) : Json();
     row["share_undecided"] =
         has_strength ? Json(double(answer.undecided) / double(answer.cases)) : Json();
+    const bool may_be_near = has_strength && answer.verdict != Verdict::topples;
+    row["factor_below"] =
+        may_be_near && answer.factor_below > 0 ? Json(answer.factor_below) : Json();
+    row["factor_above"] = may_be_near ? known(answer.factor_above) : Json();
     // Infinite, as JSON cannot say, if it topples.
     row["peak_of_alpha"] = has_strength ? known(answer.peak) : Json();
     if (job.problem.grid.may_slip()) {
@@ -104,6 +108,13 @@ std::string strength_text(const std::optional<double>& pga, double end)
                : fmt::format("above {:.4g}", end);
 }
 
+/// A share of a strength; with two digits, if that is more than one percent.
+std::string percent(double share)
+{
+    return share < 0.1 ? fmt::format("{:.2g} %", 100 * share)
+                       : fmt::format("{:.0f} %", 100 * share);
+}
+
 } // namespace
 
 std::string outcome_word(const ObjectAnswer& answer)
@@ -130,12 +141,14 @@ std::string note_on(const ObjectAnswer& answer)
     }
     if (answer.verdict == Verdict::safe) {
         constexpr double near = 1.1;
-        if (answer.topples_below) {
-            notes.emplace_back("topples at less than the asked strength");
-        }
-        if (answer.nearest_factor < near) {
-            notes.push_back(fmt::format("near a flip: {:.2g} % more topples it",
-                                        100 * (answer.nearest_factor - 1)));
+        const double below = answer.factor_below;
+        const double above = answer.factor_above;
+        if (below > 0) {
+            notes.push_back(fmt::format(
+                "topples at {} less{}", percent(1 - below),
+                std::isinf(above) ? "" : fmt::format(" and {} more", percent(above - 1))));
+        } else if (above < near) {
+            notes.push_back(fmt::format("topples at {} more", percent(above - 1)));
         }
     }
     if (!answer.toppling_pga) {
@@ -221,10 +234,13 @@ void print_assessment(const Job& job, const std::vector<ObjectAnswer>& answers,
         const std::string note = note_on(answer);
         fmt::print("{}{}\n", note.empty() ? "" : "  ", note);
     }
-    fmt::print("\nStrengths are {}, of the worst case, searched in steps of at most {:.2g} % and "
-               "refined to {:.2g} %.{}\n",
-               scene.worded("peak ground accelerations (PGA)"), 100 * toppling_step,
-               100 * width_of_lowest, has_strength ? " The tilt is the largest, over alpha." : "");
+    fmt::print("\nStrengths are {}, of the worst case, {}.{}\n",
+               scene.worded("peak ground accelerations (PGA)"),
+               options.fine
+                   ? "searched as by overturn topple"
+                   : fmt::format("searched in steps of at most {:.2g} % and refined to {:.2g} %",
+                                 100 * toppling_step, 100 * width_of_lowest),
+               has_strength ? " The tilt is the largest, over alpha." : "");
 }
 
 std::string csv_of(const Job& job, const std::vector<ObjectAnswer>& answers)
@@ -267,7 +283,9 @@ std::string json_of(const Job& job, const std::vector<ObjectAnswer>& answers,
     members["pga"] = known(options.pga);
     members["scale"] = known(options.scale);
     members["pga_max"] = options.pga_max;
-    members["width_of_search"] = width_of_lowest;
+    members["search"] = options.fine ? "fine" : "steps";
+    members["step_of_search"] = options.fine ? Json() : Json(toppling_step);
+    members["width_of_search"] = options.fine ? Json() : Json(width_of_lowest);
     members["warnings"] = warnings_on(job);
     Json& objects = members["objects"] = Json::array();
     for (const ObjectAnswer& answer : answers) {
