@@ -4,16 +4,13 @@
 
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/sweep/compute_tile.hpp"
+#include "overturn/sweep/in_threads.hpp"
 #include "overturn/sweep/toppling.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <mutex>
 #include <span>
-#include <thread>
 #include <tuple>
 
 namespace overturn {
@@ -33,42 +30,6 @@ Numerics numerics_of_search(const Scene& scene, const Point& point)
     numerics.resolve = !may_slip;
     numerics.tolerance = may_slip ? numerics.tolerance : tolerance_to_resolve_from;
     return numerics;
-}
-
-/// Calls work(i) for 0 <= i < count in several threads, and `progress` in this one. The first
-/// exception of a thread ends all, and is thrown again.
-void in_threads(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
-                const std::function<void(std::size_t done)>& progress)
-{
-    std::atomic<std::size_t> next = 0;
-    std::atomic<std::size_t> done = 0;
-    std::exception_ptr failure;
-    std::mutex mutex;
-    const auto take = [&](bool is_caller) {
-        for (std::size_t i = next++; i < count; i = next++) {
-            try {
-                work(i);
-            } catch (...) {
-                const std::scoped_lock lock(mutex);
-                failure = failure ? failure : std::current_exception();
-                next = count;
-            }
-            ++done;
-            if (is_caller && progress) {
-                progress(done);
-            }
-        }
-    };
-    {
-        std::vector<std::jthread> others;
-        for (int i = 1; i < threads; ++i) {
-            others.emplace_back(take, false);
-        }
-        take(true);
-    }
-    if (failure) {
-        std::rethrow_exception(failure);
-    }
 }
 
 /// The places along a dimension of the points of a grid, row by row.

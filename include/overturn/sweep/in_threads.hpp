@@ -1,0 +1,14 @@
+// Independent pieces of work, such as objects or tiles, in several threads.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace overturn {
+
+/// Calls work(i) for 0 <= i < count in several threads, and `progress` in this one. The first
+/// exception of a thread ends all, and is thrown again.
+void in_threads(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
+                const std::function<void(std::size_t done)>& progress);
+
+} // namespace overturn
