@@ -3,13 +3,14 @@
 #include "point_run.hpp"
 
 #include "overturn/mechanics/energy_criteria.hpp"
+#include "overturn/text/mapped.hpp"
 
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 namespace overturn {
@@ -218,41 +219,58 @@ private:
     int left_in_50_digits_ = search.most_in_50_digits;
 };
 
-/// Narrows the bracket of a flip to the flip width, or until a verdict within it cannot be settled.
-/// The margin changes its sign at the flip but may jump.
-std::array<Probe, 2> narrowed(Line& line, const Probe& below, const Probe& above)
+/// The bracket of a flip, and the amplitude at which a probe is missing to narrow it further.
+struct Bracket {
+    Probe low;
+    Probe high;
+    std::optional<double> missing{};
+};
+
+/// Narrows the bracket of a flip to the flip width, or until a verdict within it cannot be settled,
+/// as far as the probes within it are known. The margin changes its sign at the flip but may jump.
+Bracket narrowed(Line& line, const Bracket& given, const std::vector<Probe>& known)
 {
-    Probe low = below;
-    Probe high = above;
-    bool settled = true;
+    auto [low, high, missing] = given;
+    const Probe* unsettled = nullptr;
+    const auto known_at = [&](double amplitude) -> const Probe* {
+        const auto found = std::ranges::find(known, amplitude, &Probe::amplitude);
+        missing = found == known.end() ? std::optional(amplitude) : std::nullopt;
+        return missing ? nullptr : &*found;
+    };
     const auto margin = [&](double amplitude) {
-        const Probe probe = line.at(amplitude);
-        settled = settled && is_decided(probe.region);
-        if (!settled) {
+        const Probe* const probe = known_at(amplitude);
+        if (missing) {
             return 0.0; // ends the search
         }
-        (is_safe(probe.region) == is_safe(below.region) ? low : high) = probe;
-        return probe.margin;
+        if (!is_decided(probe->region)) {
+            unsettled = probe;
+            return 0.0;
+        }
+        (is_safe(probe->region) == is_safe(given.low.region) ? low : high) = *probe;
+        return probe->margin;
     };
     std::uintmax_t most_evaluations = 100;
     const auto is_narrow = [&](double one, double other) { return line.is_narrow(one, other); };
-    boost::math::tools::toms748_solve(margin, below.amplitude, above.amplitude, below.margin,
-                                      above.margin, is_narrow, most_evaluations);
-    while (settled &&
+    boost::math::tools::toms748_solve(margin, low.amplitude, high.amplitude, low.margin,
+                                      high.margin, is_narrow, most_evaluations);
+    while (!missing && unsettled == nullptr &&
            !line.is_narrow(low.amplitude, high.amplitude)) { // if a margin of 0 ended it early
         margin(middle_of(low, high));
     }
-    if (!settled && line.may_slip()) { // the ends of the range whose verdicts cannot be settled
-        double first = line.undecided.back().amplitude;
+    if (unsettled != nullptr && line.may_slip()) { // the ends of the range that cannot be settled
+        double first = unsettled->amplitude;
         double last = first;
         const auto close = [&](Probe& settled_end, double& end) {
             constexpr double enough = 1e-9; // of the amplitude
-            while (std::abs(end - settled_end.amplitude) > enough * high.amplitude) {
-                const Probe probe = line.at((end + settled_end.amplitude) / 2);
-                if (!is_decided(probe.region)) {
-                    end = probe.amplitude;
-                } else if (is_safe(probe.region) == is_safe(settled_end.region)) {
-                    settled_end = probe;
+            while (!missing && std::abs(end - settled_end.amplitude) > enough * high.amplitude) {
+                const Probe* const probe = known_at((end + settled_end.amplitude) / 2);
+                if (missing) {
+                    return;
+                }
+                if (!is_decided(probe->region)) {
+                    end = probe->amplitude;
+                } else if (is_safe(probe->region) == is_safe(settled_end.region)) {
+                    settled_end = *probe;
                 } else {
                     return; // another flip
                 }
@@ -260,13 +278,42 @@ std::array<Probe, 2> narrowed(Line& line, const Probe& below, const Probe& above
         };
         close(low, first);
         close(high, last);
-        if (line.is_narrow(low.amplitude, high.amplitude)) {
+        if (!missing && line.is_narrow(low.amplitude, high.amplitude)) {
             std::erase_if(line.undecided, [&](const Probe& probe) {
                 return low.amplitude < probe.amplitude && probe.amplitude < high.amplitude;
             });
         }
     }
-    return {low, high};
+    return {low, high, missing};
+}
+
+/// The probes at the ends of these brackets, narrowed. A search starts anew with each probe, so
+/// that the next ones of all are computed together, in the lanes of packs.
+std::vector<Probe> ends_of_narrowed(Line& line, const std::vector<Bracket>& brackets)
+{
+    std::vector<std::vector<Probe>> known(brackets.size());
+    std::vector<Bracket> narrow(brackets.size());
+    std::vector<std::size_t> open(brackets.size());
+    std::iota(open.begin(), open.end(), std::size_t(0));
+    while (true) {
+        for (const std::size_t i : open) {
+            narrow[i] = narrowed(line, brackets[i], known[i]);
+        }
+        std::erase_if(open, [&](std::size_t i) { return !narrow[i].missing; });
+        if (open.empty()) {
+            break;
+        }
+        const std::vector<Probe> next =
+            line.at(mapped(open, [&](std::size_t i) { return *narrow[i].missing; }), most_accurate);
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            known[open[i]].push_back(next[i]);
+        }
+    }
+    std::vector<Probe> ends;
+    for (const Bracket& bracket : narrow) {
+        ends.insert(ends.end(), {bracket.low, bracket.high});
+    }
+    return ends;
 }
 
 /// Bisects between two amplitudes at which the block overturns to different sides. Returns a safe
@@ -466,14 +513,13 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
         probes = refined(line, line.at(divided(amplitudes, widest_step, line.lifting()), scanning));
         add_hidden_verdicts(line, probes);
     }
-    std::vector<Probe> closer;
-    for (std::size_t i = 1; i < probes.size() && closer.size() < 2 * most_flips; ++i) {
+    std::vector<Bracket> brackets;
+    for (std::size_t i = 1; i < probes.size() && brackets.size() < most_flips; ++i) {
         if (is_flip(probes[i - 1], probes[i])) {
-            const auto [low, high] = narrowed(line, probes[i - 1], probes[i]);
-            closer.insert(closer.end(), {low, high});
+            brackets.push_back({probes[i - 1], probes[i]});
         }
     }
-    add(closer, probes);
+    add(ends_of_narrowed(line, brackets), probes);
     add(line.undecided, probes);
     // Of undecided amplitudes that were settled later, the settled ones remain.
     const auto repeated = std::ranges::unique(probes, {}, &Probe::amplitude);

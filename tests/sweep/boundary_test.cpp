@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 
 namespace overturn {
@@ -351,6 +352,38 @@ TEST(Boundary, UnderARecordHasTheStatedStepsHoweverFewTheAmplitudes)
         }
     }
     EXPECT_GT(strips, 20);
+}
+
+TEST(Boundary, UnderARecordHasFlipsThatDoNotDependOnEachOther)
+{
+    std::mt19937_64 generator(66);
+    std::size_t flips = 0;
+    for (int i = 0; i < 20; ++i) {
+        const auto [scene, line, lifting] = random_record_line(generator, Directions::both);
+        const std::vector<double> amplitudes =
+            Axis(AxisRange{lifting, 4 * lifting, 300, Spacing::log}).values();
+        FlipSearch search = flip_search(scene);
+        search.finest_step = 0.01; // no step is divided
+        std::vector<Flip> all = boundary_on(scene, line, amplitudes, widest_kernel(), search).flips;
+        std::vector<Flip> one_by_one;
+        for (std::size_t k = 1; k < amplitudes.size(); ++k) {
+            const Boundary single = boundary_on(scene, line, {amplitudes[k - 1], amplitudes[k]},
+                                                widest_kernel(), search);
+            one_by_one.insert(one_by_one.end(), single.flips.begin(), single.flips.end());
+        }
+        const auto is_settled = [](const Flip& flip) {
+            return is_decided(flip.region_below) && is_decided(flip.region_above);
+        };
+        std::erase_if(all, std::not_fn(is_settled));
+        std::erase_if(one_by_one, std::not_fn(is_settled));
+        ASSERT_EQ(all.size(), one_by_one.size()) << i;
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            EXPECT_EQ(all[k].below, one_by_one[k].below);
+            EXPECT_EQ(all[k].above, one_by_one[k].above);
+        }
+        flips += all.size();
+    }
+    EXPECT_GT(flips, 30U);
 }
 
 TEST(Boundary, IsDecidedUpToWhereTheVerticalMotionCancelsGravity)
