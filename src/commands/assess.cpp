@@ -10,6 +10,7 @@
 #include "overturn/file/answer_table.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/record/text_file.hpp"
+#include "overturn/sweep/in_threads.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/mapped.hpp"
 #include "overturn/text/quoting.hpp"
@@ -17,7 +18,6 @@
 
 #include <algorithm>
 #include <map>
-#include <thread>
 
 namespace overturn {
 
@@ -104,8 +104,7 @@ int assess(const AssessOptions& options)
     const AssessmentQuestion question{.has_strength = options.pga || options.scale,
                                       .pga_max = options.pga_max,
                                       .is_fine = options.fine,
-                                      .threads =
-                                          int(std::max(1U, std::thread::hardware_concurrency())),
+                                      .threads = threads_of_processor(),
                                       .progress = [&](std::size_t done, std::size_t all) {
                                           if (!progress) {
                                               progress.emplace(0, std::int64_t(all), "cases");

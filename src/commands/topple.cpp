@@ -11,6 +11,7 @@
 #include "report/topple_answer.hpp"
 
 #include "overturn/file/history_and_accuracy_files.hpp"
+#include "overturn/sweep/in_threads.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
 
@@ -106,7 +107,10 @@ std::vector<DirectedAnswer> answers_for(std::vector<Job> jobs, const ToppleOptio
         all.push_back({std::move(job), std::move(history), {}});
     }
     std::size_t answered = 0;
-    ToppleQuestion question{options.pga || options.scale, options.pga, options.pga_max};
+    ToppleQuestion question{.has_strength = options.pga || options.scale,
+                            .pga = options.pga,
+                            .pga_max = options.pga_max,
+                            .threads = threads_of_processor()};
     question.progress = [&](std::size_t done, std::size_t restitutions) {
         if (!progress) {
             progress.emplace(0, std::int64_t(all.size() * restitutions), "restitutions");

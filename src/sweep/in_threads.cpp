@@ -1,5 +1,6 @@
 #include "overturn/sweep/in_threads.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -7,6 +8,11 @@
 #include <vector>
 
 namespace overturn {
+
+int threads_of_processor()
+{
+    return int(std::max(1U, std::thread::hardware_concurrency()));
+}
 
 void in_threads(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
                 const std::function<void(std::size_t done)>& progress)

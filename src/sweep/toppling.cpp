@@ -1,56 +1,73 @@
 #include "overturn/sweep/toppling.hpp"
 
+#include "point_run.hpp"
+
 #include "overturn/mechanics/sliding.hpp"
 #include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/sweep/compute_tile.hpp"
+#include "overturn/sweep/in_threads.hpp"
 #include "overturn/text/mapped.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <iterator>
 #include <limits>
+#include <thread>
 #include <tuple>
-#include <utility>
 
 namespace overturn {
 
 namespace {
 
-/// See ToppleAnswer::friction_to_topple. unit: the peak acceleration of the strength 1.
-std::vector<double> friction_to_topple(const Problem& of_one_point, const VerdictRanges& ranges,
-                                       double unit)
+/// The strengths of a point in its direction, in units of g. unit: the peak acceleration of the
+/// strength 1.
+BoundaryLine line_of(const Point& point, double unit)
 {
-    const Scene& scene = of_one_point.scene;
+    return {.point = point, .unit = std::signbit(point.amplitude) ? -unit : unit};
+}
+
+/// See ToppleAnswer::friction_to_topple. line: amplitudes in units of g.
+std::vector<double> friction_to_topple(const Scene& scene, const BoundaryLine& line,
+                                       const VerdictRanges& ranges, int threads)
+{
     const auto toppling = ranges.with(Verdict::topples);
-    if (toppling.empty() || !has_contact_forces(scene.theory) || of_one_point.grid.may_slip()) {
+    if (toppling.empty() || !has_contact_forces(scene.theory) ||
+        std::isfinite(line.point.friction)) {
         return {};
     }
     // At the end itself, whether the block topples, and with it the friction, may be unknown.
     const std::vector<double> ends = mapped(toppling, [](const VerdictRange& range) {
         return range.first + std::min(1e-6 * range.first, (range.last - range.first) / 2);
     });
-    std::vector<double> accelerations = ends;
-    if (const double highest = accelerations.back(); ranges.lifting < highest) {
-        const std::vector<double> scan = scanned_accelerations(scene, ranges.lifting, highest);
-        accelerations.insert(accelerations.end(), scan.begin(), scan.end());
-    }
+    std::vector<double> accelerations =
+        scanned_accelerations(scene, ranges.lifting, ranges.end_of_search());
+    std::erase_if(accelerations, [&](double each) { return each > ends.back(); });
+    accelerations.insert(accelerations.end(), ends.begin(), ends.end());
     std::ranges::sort(accelerations);
-    const auto [begin, end] = std::ranges::unique(accelerations);
-    accelerations.erase(begin, end);
-    const std::string strength(scene.motion_traits().answer_strength);
-    const std::vector<double> strengths = mapped(accelerations, [&](double acceleration) {
-        return strength == "pga" ? acceleration : acceleration / unit;
-    });
-    Problem problem = of_one_point;
-    // A pattern that matches one file is a dimension, of one motion.
-    for (Dimension& dimension : std::exchange(problem.grid.dimensions, {})) {
-        std::ranges::move(dimension.columns, std::back_inserter(problem.grid.numbers));
-    }
-    std::erase_if(problem.grid.numbers,
-                  [](const Column& number) { return number.quantity->role == Role::strength; });
-    problem.grid.dimensions = {{strength, {{&quantity(strength), Axis(AxisList(strengths))}}}};
-    const std::vector<double> friction = accurate_values(problem, Field::friction_demand);
+    // As in the search for the ranges.
+    const bool is_sensitive = scene.motion_traits().is_sensitive;
+    const int most_in_50_digits = is_sensitive ? 0 : std::numeric_limits<int>::max();
+    std::vector<double> friction(accelerations.size());
+    constexpr std::size_t at_once = 32; // half of which may need more digits
+    in_threads(
+        (friction.size() + at_once - 1) / at_once, threads,
+        [&](std::size_t part) {
+            const std::size_t first = part * at_once;
+            std::vector<Point> points(std::min(at_once, friction.size() - first), line.point);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                points[i].amplitude = accelerations[first + i] / line.unit;
+            }
+            const PointRun run(scene, std::move(points), widest_kernel(), nullptr,
+                               line.point.block.is_symmetric());
+            const Outcomes outcomes =
+                outcomes_of(run, most_accurate, {.contact = true}, most_in_50_digits);
+            for (int i = 0; i < run.size(); ++i) {
+                const bool is_settled = is_decided(outcomes[i].region);
+                friction[first + std::size_t(i)] = is_settled ? outcomes[i].friction_demand : 0;
+            }
+        },
+        nullptr);
     std::vector<double> needed;
     double largest = 0; // NaN as soon as one is unknown
     for (std::size_t i = 0; i < accelerations.size(); ++i) {
@@ -88,28 +105,41 @@ std::vector<RestitutionAnswer> answers_by_restitution(const Problem& problem, co
                                                       const ToppleAnswer& answer,
                                                       const ToppleQuestion& question)
 {
-    const double of_direction = std::signbit(point.amplitude) ? -1 : 1; // mirrored
     const double requested = point.block.restitution;
     const auto r_max = r_max_of_only_block(problem);
     const std::vector<double> ratios = restitutions_of(requested, r_max);
-    std::vector<RestitutionAnswer> answers;
-    const auto show_progress = [&] {
-        if (question.progress) {
-            question.progress(answers.size(), ratios.size());
+    std::vector<RestitutionAnswer> answers(ratios.size());
+    std::vector<std::size_t> distinct{0}; // the requested one, and those that differ from it
+    for (std::size_t i = 1; i < ratios.size(); ++i) {
+        if (ratios[i] != requested) {
+            distinct.push_back(i);
+        }
+    }
+    std::atomic<std::size_t> done = ratios.size() - distinct.size();
+    const auto show_progress = [&, caller = std::this_thread::get_id()] {
+        if (question.progress && std::this_thread::get_id() == caller) {
+            question.progress(done, ratios.size());
         }
         return false;
     };
     const double end = std::max(question.pga_max, answer.pga);
-    for (const double ratio : ratios) {
-        if (!answers.empty() && ratio == requested) {
-            answers.push_back(answers.front());
-            continue;
+    in_threads(
+        distinct.size(), question.threads,
+        [&](std::size_t number) {
+            const std::size_t i = distinct[number];
+            BoundaryLine line = line_of(point, answer.unit);
+            line.point.block.restitution = ratios[i];
+            answers[i].ranges = verdict_ranges(problem.scene, line, answer.lifting_pga, end,
+                                               answer.pga, show_progress);
+            ++done;
+        },
+        nullptr);
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+        answers[i].share = r_max ? ratios[i] / *r_max : std::numeric_limits<double>::quiet_NaN();
+        answers[i].ratio = ratios[i];
+        if (ratios[i] == requested) {
+            answers[i].ranges = answers.front().ranges;
         }
-        BoundaryLine line{.point = point, .unit = of_direction * answer.unit};
-        line.point.block.restitution = ratio;
-        answers.push_back({r_max ? ratio / *r_max : std::numeric_limits<double>::quiet_NaN(), ratio,
-                           verdict_ranges(problem.scene, line, answer.lifting_pga, end, answer.pga,
-                                          show_progress)});
     }
     return answers;
 }
@@ -220,7 +250,8 @@ ToppleAnswer answer_of(const Problem& problem, const ToppleQuestion& question)
     answer.slip = slip_of(problem, point, question);
     answer.lifting_pga = lifting_pga(scene, point);
     answer.by_restitution = answers_by_restitution(problem, point, answer, question);
-    answer.friction_to_topple = friction_to_topple(problem, answer.requested().ranges, answer.unit);
+    answer.friction_to_topple = friction_to_topple(scene, line_of(point, answer.unit),
+                                                   answer.requested().ranges, question.threads);
     return answer;
 }
 

@@ -91,6 +91,36 @@ TEST(VerdictRanges, CoverTheSearchAndAgreeWithSingleVerdicts)
     }
 }
 
+TEST(ToppleAnswer, DoesNotDependOnTheNumberOfThreads)
+{
+    std::mt19937_64 generator(8);
+    Problem problem;
+    problem.scene.motion = Suite{{std::make_shared<const Accelerogram>(
+        random_record(generator, 600, Directions::horizontal))}};
+    problem.grid =
+        grid_of(problem.scene, {number("motion", 1), number("width", 0.4), number("height", 1.6),
+                                number("restitution_of_maximum", 1), number("scale", 1)});
+    const auto answer_in = [&](int threads) {
+        return answer_of(problem,
+                         {.has_strength = true, .pga = {}, .pga_max = 2, .threads = threads});
+    };
+    const ToppleAnswer one = answer_in(1);
+    const ToppleAnswer three = answer_in(3);
+    ASSERT_EQ(one.by_restitution.size(), 6U);
+    for (std::size_t i = 0; i < one.by_restitution.size(); ++i) {
+        const std::vector<VerdictRange>& ranges = one.by_restitution[i].ranges.all;
+        EXPECT_GT(ranges.size(), 2U);
+        EXPECT_EQ(one.by_restitution[i].ratio, three.by_restitution[i].ratio);
+        ASSERT_EQ(ranges.size(), three.by_restitution[i].ranges.all.size());
+        for (std::size_t k = 0; k < ranges.size(); ++k) {
+            EXPECT_EQ(ranges[k].last, three.by_restitution[i].ranges.all[k].last);
+            EXPECT_EQ(ranges[k].verdict, three.by_restitution[i].ranges.all[k].verdict);
+        }
+    }
+    EXPECT_EQ(one.friction_to_topple.size(), one.requested().ranges.with(topples).size());
+    EXPECT_EQ(one.friction_to_topple, three.friction_to_topple);
+}
+
 TEST(Directions, OfABlockWhoseSidesDifferAreBothUnlessOneIsGiven)
 {
     std::mt19937_64 generator(2);

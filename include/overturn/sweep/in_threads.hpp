@@ -6,6 +6,9 @@
 
 namespace overturn {
 
+/// The number of threads that this computer runs at once, at least 1.
+int threads_of_processor();
+
 /// Calls work(i) for 0 <= i < count in several threads, and `progress` in this one. The first
 /// exception of a thread ends all, and is thrown again.
 void in_threads(std::size_t count, int threads, const std::function<void(std::size_t)>& work,

@@ -22,7 +22,9 @@ struct ToppleQuestion {
     bool has_strength;         ///< whether the strength of the point is asked for
     std::optional<double> pga; ///< its peak acceleration over g, if that is given [1]
     double pga_max;            ///< the end of the search, unless the strength is larger [1]
-    /// Called again and again, with the numbers of restitutions that are computed, and of all.
+    int threads = 1;
+    /// Called again and again in the thread of the caller, with the numbers of restitutions that
+    /// are computed, and of all.
     std::function<void(std::size_t done, std::size_t all)> progress = nullptr;
 };
 
@@ -43,7 +45,8 @@ struct ToppleAnswer {
     double peak = 0;                       ///< |theta| / alpha
     std::optional<double> friction_demand; ///< see the field; nullopt in the linear theory
     /// For each toppling range of the requested restitution: the largest friction from uplift to
-    /// its lower end, NaN if one is unknown; empty in the linear theory.
+    /// its lower end, where the verdict is not undecided, NaN if one is unknown; empty in the
+    /// linear theory.
     std::vector<double> friction_to_topple;
     std::optional<SlipAnswer> slip; ///< with a friction coefficient
     double pga = 0;                 ///< of the point
