@@ -75,7 +75,7 @@ std::string job_text(const AssessOptions& options)
         text +=
             fmt::format("pulse_period = {{ values = [{}] }}\n", fmt::join(options.periods, ", "));
     }
-    if (!has("restitution") && !has("restitution_of_maximum")) {
+    if (!has("restitution") && !has("restitution_of_maximum") && !has("velocity_restitution")) {
         text += "restitution_of_maximum = 1\n";
     }
     if (!has("direction")) {

@@ -191,9 +191,12 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
         ->excludes("--pga");
     number("--restitution", options.restitution, "R",
            "Energy ratio r at an impact, the square of the ratio of velocities");
+    number("--velocity-restitution", options.velocity_restitution, "E",
+           "Ratio e of the velocities at an impact, instead of r = e^2")
+        ->excludes("--restitution");
     number("--restitution-of-maximum", options.restitution_of_maximum, "X",
            "r over r_max (Eq. 17); default: 1")
-        ->excludes("--restitution");
+        ->excludes("--restitution", "--velocity-restitution");
     number("--pga-max", options.pga_max, "G", "Largest peak ground acceleration of the search",
            largest_pga)
         ->capture_default_str();

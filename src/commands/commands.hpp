@@ -58,7 +58,8 @@ struct ToppleOptions {
     std::optional<double> pga;           ///< over g [1]
     std::optional<double> scale;         ///< of the record [1]
     std::optional<double> restitution;
-    std::optional<double> restitution_of_maximum; ///< default, without restitution: 1
+    std::optional<double> velocity_restitution;   ///< its root
+    std::optional<double> restitution_of_maximum; ///< default, without the others: 1
     std::vector<std::string> overrides;           ///< of keys of [scene]
     double pga_max = 5;                           ///< the largest acceleration searched, over g [1]
     bool json = false;

@@ -37,8 +37,10 @@ std::string job_text(const ToppleOptions& options)
         text += fmt::format("pulse_period = {}\n", *options.period);
     }
     text += options.restitution ? fmt::format("restitution = {}\n", *options.restitution)
-                                : fmt::format("restitution_of_maximum = {}\n",
-                                              options.restitution_of_maximum.value_or(1));
+            : options.velocity_restitution
+                ? fmt::format("velocity_restitution = {}\n", *options.velocity_restitution)
+                : fmt::format("restitution_of_maximum = {}\n",
+                              options.restitution_of_maximum.value_or(1));
     if (options.direction) {
         text += fmt::format("direction = {}\n", *options.direction);
     }

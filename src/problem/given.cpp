@@ -82,8 +82,10 @@ void expect_block(const Coordinates& coordinates, const Grid& grid)
         expect(coordinates, "slenderness", "slenderness",
                "Give the slenderness [rad]; or width and height [m], or their halves.");
     }
-    expect(coordinates, "restitution", "restitution",
-           "Give restitution, the energy ratio r, or restitution_of_maximum, its share of r_max.");
+    expect(
+        coordinates, "restitution", "restitution",
+        "Give restitution, the energy ratio r, or restitution_of_maximum, its share of r_max, or "
+        "velocity_restitution, its root.");
 }
 
 void expect_motion(const Scene& scene, const Coordinates& coordinates, const Grid& grid)
@@ -207,11 +209,11 @@ void expect_limits(const Coordinates& coordinates, const Grid& corners)
          corners.has_two_sides()},
         {"restitution",
          quantity("restitution").interval,
-         {"restitution_of_maximum"},
+         {"restitution_of_maximum", "velocity_restitution"},
          quantity("restitution").reason},
         {"restitution_over_largest",
          {"(0, 1]", [](double share) { return share <= 1 + 1e-12; }},
-         {"restitution_of_maximum", "restitution"},
+         {"restitution_of_maximum", "restitution", "velocity_restitution"},
          "With friction, the restitution is at most r_max, that of an impact on a corner that does "
          "not slip. Give at most r_max, or remove friction.",
          corners.may_slip()},

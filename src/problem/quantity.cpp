@@ -187,9 +187,15 @@ constexpr Quantity quantities[] = {
      "A block cannot gain energy at an impact, nor lose all of it.", {.is_stored = true},
      {{{"restitution_of_maximum", "slenderness"},
        [](auto&, auto& of) { return of[0] * largest_restitution(of[1]); }, equal},
-      {{"restitution_of_maximum", "largest_restitution"}, product, two}}},
+      {{"restitution_of_maximum", "largest_restitution"}, product, two},
+      {{"velocity_restitution"}, [](auto&, auto& of) { return of[0] * of[0]; }}}},
     {"restitution_of_maximum", "1", Role::loss, "energy ratio at an impact, r / r_max", positive,
      "It is a share of the largest restitution (Eq. 17).", {.same_as = "restitution"}},
+    // Of a block with two different sides, the mean of the ratios of the impacts on both: their
+    // product is r, because the moments of inertia about the corners cancel.
+    {"velocity_restitution", "1", Role::loss, "velocity ratio at an impact, e = sqrt(r)", energy_ratios,
+     "It is the ratio of the angular velocities after and before an impact.",
+     {.same_as = "restitution"}},
     {"amplitude", "1", Role::strength, "peak acceleration, over that of uplift", not_negative,
      "It is the magnitude of the peak acceleration of the motion.",
      {.motion = pulse, .is_stored = true}, {{{"pga", "uplift_pga"}, ratio, any, pulse}}},

@@ -42,6 +42,13 @@ class Assess(Scratch):
             values = np.moveaxis(region[()], place, 0).reshape(len(names), -1)
         return dict(zip(names, values))
 
+    def test_takes_the_ratio_of_the_velocities_as_a_column(self):
+        rows = []
+        for name, value in (("velocity_restitution", 0.8), ("restitution", 0.8 * 0.8)):
+            self.write_table(f"name,width,height,{name}\nstatue,0.6,1.8,{value!r}\n")
+            rows.append(self.rows("--period", "0.5")["statue"])
+        self.assertEqual(*({name: row[name] for name in ("lifts_from", "topples_from")} for row in rows))
+
     def test_has_the_lowest_strength_and_the_verdict_of_run(self):
         generator = np.random.default_rng(5)
         for motion, options in ((['pulse = "one_sine"', "pulse_period = 0.5"], ["--period", "0.5"]),

@@ -118,6 +118,12 @@ class Toppling(Scratch):
             self.assertEqual(f"verdict      topples at {pga} g" in text, pga < last)
             self.assertIn("0.9034 to 1.8397 g", self.topple(*PULSE, "--pga", "1.8"))
 
+    def test_takes_the_ratio_of_the_velocities_or_of_the_energies(self):
+        for block in (STATUE, (*STATUE, "--center-offset", "0.05")):
+            words = (*block, "--period", "0.5", "--pga", "0.9", "--pga-max", "1.5")
+            self.assertEqual(self.topple(*words, "--velocity-restitution", "0.8"),
+                             self.topple(*words, "--restitution", repr(0.8 * 0.8)))
+
     def test_without_an_acceleration_gives_the_ranges_only(self):
         answer = self.answer(*PULSE)
         self.assertIsNone(answer["topples"])
@@ -380,6 +386,9 @@ class Toppling(Scratch):
                 ((*PULSE, "--component", "2"), "--component requires --record"),
                 ((*RECORD, "--scale", "2", "--pga", "1"), "--pga excludes --scale"),
                 ((*PULSE, "--restitution", "0.6", "--restitution-of-maximum", "1"), "--restitution excludes --restitution-of-maximum"),
+                ((*PULSE, "--restitution", "0.6", "--velocity-restitution", "1"), "--restitution excludes --velocity-restitution"),
+                ((*PULSE, "--velocity-restitution", "0.6", "--restitution-of-maximum", "1"),
+                 "--velocity-restitution excludes --restitution-of-maximum"),
                 ((*PULSE, "--history", "a.h5"), "Give --pga or --scale"),
                 ((*PULSE, "--set", "plane.pga=1"), "--set takes keys of [scene] here"),
                 (("--width", "0", "--height", "1.8", "--period", "0.5"), "width = 0 is outside (0, inf)"),

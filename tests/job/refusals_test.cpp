@@ -182,6 +182,10 @@ MISTAKES(Physics,
     {"TwoWidths", 8, "width = 0.5\n[block]\nwidth = 1\nheight = 3", "10:9", {"block.width cannot be combined with plane.width, which gives the same quantity"}},
     {"AFactorOnAPulse", 6, "scale = 2", "6:9", {"plane.scale has no meaning under a pulse. Remove it"}},
     {"RestitutionInTwoSpellings", 7, "restitution = { values = [1], of = \"maximum\" }\nrestitution_of_maximum = 1", "8:26", {"plane.restitution_of_maximum cannot be combined with plane.restitution", "gives the same quantity"}},
+    {"TwoRestitutions", 7, "restitution = 1\nvelocity_restitution = 1", "8:24", {"plane.velocity_restitution cannot be combined with plane.restitution", "gives the same quantity"}},
+    {"AShareAndAVelocityRestitution", 7, "restitution_of_maximum = 1\nvelocity_restitution = 1", "8:24", {"plane.velocity_restitution cannot be combined with plane.restitution_of_maximum"}},
+    {"AVelocityRestitutionAboveOne", 7, "velocity_restitution = 1.1", "7:24", {"plane.velocity_restitution = 1.1 is outside (0, 1]", "angular velocities"}},
+    {"AVelocityRestitutionThatIsTooSmall", 7, "velocity_restitution = 1e-170", "7:24", {"restitution = 0 is outside (0, 1]"}},
     {"ASizeBesideABlock", 8, "size = 1\n[block]\nwidth = 1\nheight = 3", "8:8", {"plane.size cannot be combined with block.width"}});
 
 MISTAKES(Scene,

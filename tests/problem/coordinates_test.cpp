@@ -282,6 +282,24 @@ void expect_block(const Block<double>& found, const Block<double>& expected)
     EXPECT_NEAR(found.other.frequency_parameter, expected.other.frequency_parameter, 4e-15);
 }
 
+TEST(TwoSides, LoseTheSameEnergyWithTheMeanRatioOfTheVelocities)
+{
+    std::mt19937_64 generator(62);
+    for (int i = 0; i < 50; ++i) {
+        const Body body = random_body(generator);
+        const double ratio = 0.5 + 0.01 * i;
+        const Block<double> block =
+            point_of({number("width", body.plus + body.minus), number("height", 2.0),
+                      number("center_offset", (body.minus - body.plus) / 2),
+                      number("center_height", body.height),
+                      number("radius_of_gyration", body.gyration), number("incline", body.incline),
+                      number("velocity_restitution", ratio)})
+                .block;
+        // Each is in units of the p of its side; in the product they cancel.
+        EXPECT_DOUBLE_EQ(block.rate_ratio() * block.turned().rate_ratio(), ratio * ratio);
+    }
+}
+
 TEST(TwoSides, AreThoseOfTheShapeAndTheMassOfTheBlock)
 {
     std::mt19937_64 generator(61);

@@ -220,6 +220,11 @@ class TheShape(unittest.TestCase):
             # A few roundings of the arguments; they grow by less than a thousand.
             np.testing.assert_allclose(outcome["margin"], first["margin"], rtol=1e-12)
 
+    def test_the_velocity_restitution_is_the_root_of_the_restitution(self):
+        other = {"width": 0.6, "height": 2.4, **PULSE}
+        np.testing.assert_array_equal(overturn.evaluate(velocity_restitution=[0.8, 0.9], **other)["margin"],
+                                      overturn.evaluate(restitution=[0.8 * 0.8, 0.9 * 0.9], **other)["margin"])
+
 
 class AWarning(unittest.TestCase):
     def test_is_given_once_a_call_if_units_look_mistaken(self):

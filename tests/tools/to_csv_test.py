@@ -122,6 +122,13 @@ class TestATableOfASpectrum(Table):
         for name in ("friction", "pga", "region", "slide", "slide_peak", "status"):
             self.assertEqual([row[name] for row in listed], [row[name] for row in rows])
 
+    def test_chooses_a_restitution_in_every_spelling(self):
+        for name in ("restitution", "restitution_of_maximum", "velocity_restitution"):
+            self.overturn("run", f"{name}.h5", "plane.pga.count=2", "plane.pulse_period.count=2",
+                          f"plane.{name}={{ values = [0.7, 0.8] }}", job=JOBS / "statue.toml")
+            rows = self.rows(f"{name}.h5", "--restitution", "1")
+            self.assertEqual([row[name] for row in rows], ["0.8"] * 4)
+
     def test_of_a_single_point_has_one_row(self):
         self.overturn("run", "result.h5", "plane.frequency=3", "plane.amplitude=1.5", job=JOBS / "smoke.toml")
         _, rows = self.expect_all_of("result.h5")

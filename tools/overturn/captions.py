@@ -156,7 +156,7 @@ def motion_text(plane, units):
 def other_words(plane, units):
     """Returns the values of other dimensions, and of a friction, strength, rate and size that no axis shows."""
     file, shown = plane.file, {plane.across, plane.quantities()[1]}
-    elsewhere = ("motion", "slenderness", "restitution", "restitution_of_maximum")
+    elsewhere = ("motion", "slenderness", "restitution", "restitution_of_maximum", "velocity_restitution")
     names = [name for name in plane.index if name not in elsewhere]
     if "block" in file and not file["block"].dimensions:  # selected in a data set
         names.append("block")

@@ -30,7 +30,7 @@ def add_choice_arguments(parser):
 
 
 def option_of(dimension):
-    name = dimension.removesuffix("_of_maximum")
+    name = dimension.removesuffix("_of_maximum").removeprefix("velocity_")
     return f"--{name}" if name in OPTIONS else f"--index {dimension}=INDEX"
 
 
@@ -42,7 +42,7 @@ def chosen(file, arguments):
     choices = {}
     for option, name, index in options:
         if name == "restitution" and name not in file.dimensions:
-            name = "restitution_of_maximum"
+            name = "velocity_restitution" if "velocity_restitution" in file.dimensions else "restitution_of_maximum"
         if name not in file.dimensions or name == "crossing":
             raise ToolError(f"{option}: \"{file.filename}\" has no dimension {name}, only "
                             f"{', '.join(file.dimensions) or 'a single point'}.", USAGE)

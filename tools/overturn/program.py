@@ -85,9 +85,10 @@ def run(job: Job, ranks: int = 1, *, output: str | os.PathLike[str] | None = Non
 
 def topple(*, direction: float | None = None, pulse: str | None = None, period: float | None = None,
            record: str | os.PathLike[str] | None = None, component: str | int | None = None, pga: float | None = None,
-           scale: float | None = None, restitution: float | None = None, restitution_of_maximum: float | None = None,
-           pga_max: float | None = None, history: str | os.PathLike[str] | None = None,
-           overrides: Mapping[str, Any] | None = None, **block: float) -> dict[str, Any]:
+           scale: float | None = None, restitution: float | None = None, velocity_restitution: float | None = None,
+           restitution_of_maximum: float | None = None, pga_max: float | None = None,
+           history: str | os.PathLike[str] | None = None, overrides: Mapping[str, Any] | None = None,
+           **block: float) -> dict[str, Any]:
     """Returns the answer of `overturn topple`: whether one block topples, and at which peak accelerations.
 
     block: width and height [m], incline [rad] and so on; with all other arguments, the options of the command.
@@ -103,7 +104,8 @@ def topple(*, direction: float | None = None, pulse: str | None = None, period: 
     """
     given = {**block, "direction": direction, "pulse": pulse, "period": period, "record": record,
              "component": component, "pga": pga, "scale": scale, "restitution": restitution,
-             "restitution_of_maximum": restitution_of_maximum, "pga_max": pga_max, "history": history}
+             "velocity_restitution": velocity_restitution, "restitution_of_maximum": restitution_of_maximum,
+             "pga_max": pga_max, "history": history}
     _expect_file_names("" if record is None else record, "scene.record")
     options = [f"--{name.replace('_', '-')}={_option_text(value)}" for name, value in given.items()
                if value is not None]

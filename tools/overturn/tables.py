@@ -24,6 +24,7 @@ QUANTITIES = {
     "friction": ("", "block", ""),
     "restitution": ("", "loss", ""),
     "restitution_of_maximum": ("", "loss", "restitution"),
+    "velocity_restitution": ("", "loss", "restitution"),
     "amplitude": ("", "strength", ""),
     "scale": ("", "strength", "amplitude"),
     "pga": ("g", "strength", "amplitude"),

@@ -18,6 +18,7 @@ LABELS = {"frequency": r"pulse frequency  $\omega_p\,/\,p$",
           "frequency_parameter": r"$p$ [1/s]",
           "slenderness": r"slenderness  $\alpha$ [rad]",
           "restitution": "restitution  $r$",
+          "velocity_restitution": "velocity restitution  $e$",
           "restitution_of_maximum": r"restitution  $r\,/\,r_{max}$"}
 # What files give as multiples of powers of an angle [rad], of p and of R.
 POWERS = {"time": (0, -1, 0), "fall_time": (0, -1, 0), "angle": (1, 0, 0), "velocity": (1, 1, 0),
