@@ -11,6 +11,7 @@
 #include "overturn/text/error.hpp"
 #include "overturn/text/mapped.hpp"
 #include "overturn/text/nearest_name.hpp"
+#include "overturn/text/parse_number.hpp"
 
 #include <CLI/CLI.hpp>
 #include <boost/algorithm/string/replace.hpp>
@@ -22,6 +23,7 @@
 #include <concepts>
 #include <limits>
 #include <memory>
+#include <span>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -56,6 +58,18 @@ CLI::Option* add_text(CLI::App& command, const char* name, auto& value, const ch
                       const std::string& text)
 {
     return command.add_option(name, value, text)->type_name(type);
+}
+
+/// CLI::Range would print the largest double as the upper limit.
+std::function<std::string(const std::string&)> positive_up_to(double largest)
+{
+    return [largest](const std::string& text) -> std::string {
+        double value = 0;
+        if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value) || value <= 0) {
+            return fmt::format("{} is not a positive, finite number.", text);
+        }
+        return value <= largest ? "" : fmt::format("{} is above {} g.", text, largest);
+    };
 }
 
 void add_job_arguments(CLI::App& command, JobSource& job)
@@ -113,7 +127,7 @@ void add_history_arguments(CLI::App& command, HistoryOptions& options)
         .add_option("--until", options.until,
                     "Last time [1/p]; default: until the block comes to rest or overturns,\n"
                     "at most 60/p after the pulse")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_up_to(std::numeric_limits<double>::infinity()));
     add_count(command, "--samples", options.samples, CLI::Range(2, 10000000),
               "Number of evenly spaced times, at least as many as the record has\n"
               "samples; events are added");
@@ -151,18 +165,6 @@ void add_block(CLI::App& command, std::map<std::string, double>& block)
                         : quantity.units == "1" ? "NUMBER"
                                                 : "RAD");
     }
-}
-
-/// CLI::Range would print the largest double as the upper limit.
-std::function<std::string(const std::string&)> positive_up_to(double largest)
-{
-    return [largest](const std::string& text) -> std::string {
-        double value = 0;
-        if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value) || value <= 0) {
-            return fmt::format("{} is not a positive, finite number.", text);
-        }
-        return value <= largest ? "" : fmt::format("{} is above {} g.", text, largest);
-    };
 }
 
 constexpr double largest_pga = 1000; // steps of a search beyond it are too long, or too many
@@ -454,6 +456,23 @@ Command to_print(const std::string& text)
                 meant.empty() ? "" : fmt::format(" Did you mean \"{}\"?", meant));
 }
 
+/// Whether the message is on an option with a decimal comma, and then what to write instead.
+std::string advice_on_commas(std::span<const char* const> words, std::string_view message)
+{
+    std::string_view option;
+    for (std::string_view word : words) {
+        if (word.starts_with("--")) {
+            option = word.substr(0, word.find('='));
+            word = word.substr(std::min(option.size() + 1, word.size()));
+        }
+        if (!option.empty() && message.find(option) != message.npos &&
+            !advice_on_decimal_comma(word).empty()) {
+            return (message.ends_with('.') ? "" : ".") + advice_on_decimal_comma(word);
+        }
+    }
+    return "";
+}
+
 } // namespace
 
 Command read_command_line(int argc, const char* const* argv)
@@ -481,7 +500,8 @@ Command read_command_line(int argc, const char* const* argv)
         app.exit(asked, answer);
         return to_print(answer.str());
     } catch (const CLI::ParseError& error) {
-        throw Error(exit_code::usage, "{}\nRun with --help for more information.", error.what());
+        throw Error(exit_code::usage, "{}{}\nRun with --help for more information.", error.what(),
+                    advice_on_commas(given, error.what()));
     }
     return parser.chosen;
 }

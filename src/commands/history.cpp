@@ -31,7 +31,8 @@ struct At {
     std::string override;
 };
 
-At read_at(const std::string& given)
+/// before: the argument before it, from which a decimal comma may have cut it.
+At read_at(const std::string& given, std::string_view before)
 {
     const std::size_t equals = std::min(given.find('='), given.size());
     const std::string_view text = given;
@@ -40,8 +41,10 @@ At read_at(const std::string& given)
     if (!is_one_of(axis, keys_of("plane")) || value.empty()) {
         throw Error(exit_code::usage,
                     "--at {}: write AXIS=VALUE, where AXIS is one of {}, such as "
-                    "--at frequency=3,amplitude=1.5.",
-                    given, fmt::join(keys_of("plane"), ", "));
+                    "--at frequency=3,amplitude=1.5.{}",
+                    given, fmt::join(keys_of("plane"), ", "),
+                    advice_on_decimal_comma(
+                        fmt::format("{},{}", before.substr(before.find('=') + 1), given)));
     }
     if (!is_whole(parse_number(value), value)) {
         throw Error(exit_code::usage, "--at {}: {} is not a number. Give one, such as --at {}=3.",
@@ -57,7 +60,7 @@ Job read_job_at(const HistoryOptions& options)
     std::vector<At> places;
     std::vector<std::string> overrides = options.job.overrides;
     for (const std::string& given : options.at) {
-        const At at = read_at(given);
+        const At at = read_at(given, places.empty() ? "" : places.back().given);
         for (const At& other : places) {
             if (exclude_each_other(at.axis, other.axis)) {
                 throw Error(exit_code::usage,

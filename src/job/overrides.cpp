@@ -1,6 +1,7 @@
 #include "read_steps.hpp"
 
 #include "overturn/text/is_one_of.hpp"
+#include "overturn/text/parse_number.hpp"
 
 #include <cctype>
 #include <string_view>
@@ -35,6 +36,9 @@ toml::table job_of(const std::string& argument)
     } catch (const Error&) {
         const std::size_t value = argument.find('=') + 1; // 0: there is none
         const std::string_view word = trimmed(std::string_view(argument).substr(value));
+        if (const std::string on_comma = advice_on_decimal_comma(word); !on_comma.empty()) {
+            throw Error(exit_code::job, "{}: {} is not a number.{}", place, word, on_comma);
+        }
         if (value == 0 || !is_unquoted_string(word)) {
             throw;
         }

@@ -1,5 +1,7 @@
 #include "overturn/text/parse_number.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 
 #ifndef __cpp_lib_to_chars // libc++ converts no floating-point numbers
@@ -7,7 +9,6 @@
 #include <cmath>
 #include <locale.h>
 #include <stdlib.h>
-#include <string>
 #endif
 
 namespace overturn {
@@ -54,6 +55,25 @@ ParsedNumber parse_number(std::string_view text)
     ParsedNumber number = parse_unsigned_or_negative(text.substr(plus));
     number.length += number.length > 0 ? plus : 0;
     return number;
+}
+
+std::string advice_on_decimal_comma(std::string_view text)
+{
+    const std::size_t comma = text.find(',');
+    if (comma == text.npos) {
+        return "";
+    }
+    std::string number(text);
+    number[comma] = '.';
+    if (!is_whole(parse_number(number), number)) {
+        return "";
+    }
+    std::string whole; // the comma may separate thousands
+    if (comma > 0 && text.size() == comma + 4) {
+        whole = fmt::format(" or {}{}", text.substr(0, comma), text.substr(comma + 1));
+    }
+    return fmt::format(" Numbers have a decimal point: write {}{} instead of {}.", number, whole,
+                       text);
 }
 
 } // namespace overturn

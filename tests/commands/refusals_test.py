@@ -1,6 +1,7 @@
 """Refusals of overturn, with messages and exit codes, and its help."""
 
 import os
+import re
 import socket
 import subprocess
 import unittest
@@ -51,6 +52,23 @@ class TheCommandLine(Scratch):
             asked = self.overturn("help", *words)
             self.assert_exit(asked, 0)
             self.assertEqual(asked.stdout, self.overturn(*words, "--help").stdout)
+
+    def test_a_decimal_comma_is_reported_with_the_number_to_write(self):
+        advice = "Numbers have a decimal point: write 0.42 instead of 0,42."
+        for subcommand, at_least in (("topple", 19), ("assess", 3)):
+            options = re.findall(r"^  (--[a-z-]+) (?:M|RAD|NUMBER|DEGREES|S|G|X|R|E)\b(?!,)",
+                                 self.overturn(subcommand, "--help").stdout, re.MULTILINE)
+            self.assertGreaterEqual(len(options), at_least)
+            for option in options:
+                for given in ((option, "0,42"), (f"{option}=0,42",)):
+                    self.assert_refused(2, [option, advice], subcommand, *["t.csv"] * (subcommand == "assess"), *given)
+        self.assert_refused(2, ["--period: 0 is", advice], "assess", "t.csv", "--period", "0,42")
+        self.assert_refused(2, ["--until", advice], *A_HISTORY, "-o", "h.h5", "--until", "0,42")
+        self.assert_refused(2, ["--at 42", advice], "history", "small.toml", "-o", "h.h5", "--at", "frequency=0,42")
+        self.assert_refused(2, ["--points", "write 10.000 or 10000 instead"], "accuracy", "small.toml", "-o", "a.h5",
+                            "--points", "10,000")
+        self.assert_refused(65, ["--set plane.amplitude=0,42", advice], "check", "small.toml", "--set",
+                            "plane.amplitude=0,42")
 
     def test_an_unknown_subcommand_is_reported_with_a_suggestion(self):
         self.assert_refused(2, ["rum", "Did you mean \"run\"?", "--help"], "rum", "small.toml")

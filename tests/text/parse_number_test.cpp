@@ -99,5 +99,18 @@ TEST(ANumber, BeyondTheRangeOfDoublesIsOutOfRange)
     }
 }
 
+TEST(ANumber, HasADecimalPoint)
+{
+    EXPECT_EQ(advice_on_decimal_comma("0,42"),
+              " Numbers have a decimal point: write 0.42 instead of 0,42.");
+    EXPECT_EQ(advice_on_decimal_comma("-,5e-3"),
+              " Numbers have a decimal point: write -.5e-3 instead of -,5e-3.");
+    EXPECT_EQ(advice_on_decimal_comma("10,000"),
+              " Numbers have a decimal point: write 10.000 or 10000 instead of 10,000.");
+    for (const char* const text : {"", ",", "0.42", "1,2,3", "1,2.5", "a,5", "1,b", "0, 5"}) {
+        EXPECT_EQ(advice_on_decimal_comma(text), "") << text;
+    }
+}
+
 } // namespace
 } // namespace overturn

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -24,5 +25,9 @@ inline bool is_whole(const ParsedNumber& number, std::string_view text)
 {
     return number.length > 0 && number.length == text.size();
 }
+
+/// Of a number with a comma, " Numbers have a decimal point: write 0.42 instead of 0,42."; empty
+/// for other texts.
+std::string advice_on_decimal_comma(std::string_view text);
 
 } // namespace overturn
