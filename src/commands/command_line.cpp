@@ -72,6 +72,18 @@ std::function<std::string(const std::string&)> positive_up_to(double largest)
     };
 }
 
+/// CLI::IsMember makes no suggestion.
+CLI::Validator one_of(const std::vector<std::string_view>& names)
+{
+    const auto refusal_of = [names](const std::string& given) -> std::string {
+        return std::ranges::count(names, given) > 0
+                   ? ""
+                   : fmt::format("{} is unknown.{} Allowed: {}.", given, suggestion(given, names),
+                                 fmt::join(names, ", "));
+    };
+    return CLI::Validator(refusal_of, fmt::format("{{{}}}", fmt::join(names, ",")), "");
+}
+
 void add_job_arguments(CLI::App& command, JobSource& job)
 {
     command.add_option("JOB", job.path, "Job file (TOML)")->required();
@@ -86,11 +98,11 @@ void add_run_arguments(CLI::App& command, RunOptions& options)
     add_text(command, "-o,--output", options.output, "OUT.h5",
              fmt::format("Result file; default: JOB{}.h5 in the working directory",
                          options.boundary ? "_boundary" : ""));
-    std::vector<std::string> kernels{"auto"};
+    std::vector<std::string_view> kernels{"auto"};
     kernels.insert(kernels.end(), names_of<Kernel>.begin(), names_of<Kernel>.end());
     command
         .add_option("--kernel", options.kernel, "SIMD kernel; changes the speed, not the result")
-        ->check(CLI::IsMember(kernels))
+        ->check(one_of(kernels))
         ->capture_default_str();
     command.add_flag("--durable", options.durable,
                      "Sync each tile to disk, so that it survives a power failure; slower");
@@ -451,9 +463,8 @@ Command to_print(const std::string& text)
     for (const CLI::App* command : app.get_subcommands({})) {
         names.push_back(command->get_name());
     }
-    const std::string_view meant = nearest_name(word, names);
     throw Error(exit_code::usage, "unknown subcommand \"{}\".{} Run with --help for a list.", word,
-                meant.empty() ? "" : fmt::format(" Did you mean \"{}\"?", meant));
+                suggestion(word, names));
 }
 
 /// Whether the message is on an option with a decimal comma, and then what to write instead.

@@ -48,9 +48,8 @@ int keys(const KeysOptions& options)
     }
     if (!is_known) {
         const std::vector<std::string_view> known(names.begin(), names.end());
-        const std::string_view meant = nearest_name(options.name, known);
         throw Error(exit_code::usage, "unknown key \"{}\".{} overturn keys lists all.",
-                    options.name, meant.empty() ? "" : fmt::format(" Did you mean \"{}\"?", meant));
+                    options.name, suggestion(options.name, known));
     }
     return exit_code::complete;
 }

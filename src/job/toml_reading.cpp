@@ -25,13 +25,6 @@ std::string dotted(const std::string& table, std::string_view name)
     return table.empty() ? std::string(name) : fmt::format("{}.{}", table, name);
 }
 
-/// " Did you mean ...?", or empty if no name of the table is near.
-std::string suggestion(const std::string& table, std::string_view word, Names names)
-{
-    const std::string_view name = nearest_name(word, names);
-    return name.empty() ? "" : fmt::format(" Did you mean \"{}\"?", dotted(table, name));
-}
-
 /// The type and value of a node, for messages.
 std::string description_of(const toml::node& node)
 {
@@ -155,7 +148,8 @@ void expect_table(const Entry& entry, Names allowed, std::string_view or_else)
             const std::string unknown = shortened(dotted(entry.key, key.str()), longest_quotation);
             throw Error(exit_code::job, "{}: unknown key {}.{} Allowed here: {}.",
                         place_of(key.source()), in_quotes(unknown),
-                        suggestion(entry.key, key.str(), allowed), joined(allowed));
+                        suggestion(key.str(), allowed, entry.key.empty() ? "" : entry.key + "."),
+                        joined(allowed));
         }
     }
 }
@@ -249,7 +243,7 @@ std::size_t index_of_name(const Entry& entry, Names names)
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
         refuse(entry, " = {} is unknown.{} Allowed: {}.",
-               in_quotes(shortened(name, longest_quotation)), suggestion("", name, names),
+               in_quotes(shortened(name, longest_quotation)), suggestion(name, names),
                joined(names));
     }
     return std::size_t(found - names.begin());

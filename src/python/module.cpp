@@ -9,6 +9,7 @@
 #include "overturn/text/error.hpp"
 #include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
+#include "overturn/text/nearest_name.hpp"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -42,8 +43,9 @@ Enumeration choice_of(const char* argument, const std::string& name)
 {
     const auto found = enumerator_named<Enumeration>(name);
     if (!found) {
-        throw std::invalid_argument(fmt::format("{} = \"{}\" is not one of {}.", argument, name,
-                                                fmt::join(names_of<Enumeration>, ", ")));
+        throw std::invalid_argument(fmt::format("{} = \"{}\" is not one of {}.{}", argument, name,
+                                                fmt::join(names_of<Enumeration>, ", "),
+                                                suggestion(name, names_of<Enumeration>)));
     }
     return *found;
 }
@@ -173,9 +175,10 @@ std::vector<Field> fields_named(const std::vector<std::string>& names, const Sce
     return mapped(names, [&](const std::string& name) {
         const auto found = std::ranges::find(known, name, &Field::name);
         if (found == known.end()) {
+            const std::vector<std::string_view> known_names = mapped(known, &Field::name);
             throw std::invalid_argument(
-                fmt::format("fields contains \"{}\", which is not one of {}.", name,
-                            fmt::join(mapped(known, &Field::name), ", ")));
+                fmt::format("fields contains \"{}\", which is not one of {}.{}", name,
+                            fmt::join(known_names, ", "), suggestion(name, known_names)));
         }
         if (const std::string reason = reason_not_to_compute(*found, scene, has_friction);
             !reason.empty()) {

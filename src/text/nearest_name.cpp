@@ -1,8 +1,12 @@
 #include "overturn/text/nearest_name.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <limits>
+#include <string>
 #include <vector>
 
 namespace overturn {
@@ -36,6 +40,28 @@ std::size_t edit_distance(std::string_view from, std::string_view to)
     return distance[from.size()][to.size()];
 }
 
+std::string lower_case(std::string_view word)
+{
+    std::string lower(word);
+    std::ranges::transform(lower, lower.begin(), [](unsigned char letter) {
+        return static_cast<char>(std::tolower(letter));
+    });
+    return lower;
+}
+
+/// Whether a word is part of a longer one: some of the words that underscores separate.
+bool is_part(std::string_view part, std::string_view whole)
+{
+    const std::size_t place = fmt::format("_{}_", whole).find(fmt::format("_{}_", part));
+    return !part.empty() && part.size() < whole.size() && place != std::string::npos;
+}
+
+bool is_beginning(std::string_view beginning, std::string_view word)
+{
+    constexpr std::size_t fewest = 3; // letters
+    return beginning.size() >= fewest && word.starts_with(beginning);
+}
+
 } // namespace
 
 std::string_view nearest_name(std::string_view word, std::span<const std::string_view> names)
@@ -54,17 +80,25 @@ std::string_view nearest_name(std::string_view word, std::span<const std::string
             least = distance;
         }
     }
-    if (word == "mu") {
-        word = "friction_coefficient";
-    }
-    const auto begins_with = [](std::string_view whole, std::string_view part) {
-        return !part.empty() && whole.size() > part.size() && whole.starts_with(part) &&
-               whole[part.size()] == '_';
-    };
-    for (auto name = names.begin(); nearest.empty() && name != names.end(); ++name) {
-        nearest = begins_with(*name, word) || begins_with(word, *name) ? *name : "";
+    const bool is_far = nearest.empty();
+    const std::string lower = word == "mu" ? "friction_coefficient" : lower_case(word);
+    least = std::numeric_limits<std::size_t>::max();
+    for (auto name = names.begin(); is_far && name != names.end(); ++name) {
+        const auto [shorter, longer] = std::minmax({lower.size(), name->size()});
+        if ((is_part(lower, *name) || is_part(*name, lower) || is_beginning(*name, lower)) &&
+            longer - shorter < least) {
+            nearest = *name;
+            least = longer - shorter;
+        }
     }
     return nearest;
+}
+
+std::string suggestion(std::string_view word, std::span<const std::string_view> names,
+                       std::string_view prefix)
+{
+    const std::string_view name = nearest_name(word, names);
+    return name.empty() ? "" : fmt::format(" Did you mean \"{}{}\"?", prefix, name);
 }
 
 } // namespace overturn

@@ -70,6 +70,14 @@ class TheCommandLine(Scratch):
         self.assert_refused(65, ["--set plane.amplitude=0,42", advice], "check", "small.toml", "--set",
                             "plane.amplitude=0,42")
 
+    def test_an_unknown_value_is_reported_with_a_suggestion(self):
+        self.assert_refused(2, ["--kernel: avx is unknown. Did you mean \"avx2\"? Allowed: auto, double,"], "run", "small.toml",
+                            "--kernel", "avx")
+        self.assert_refused(65, ['--set scene.pulse=ricker: scene.pulse = "ricker" is unknown. Did you mean "symmetric_ricker"?'],
+                            "check", "small.toml", "--set", "scene.pulse=ricker")
+        self.assert_refused(65, ['Did you mean "symmetric_ricker"?'], "topple", "--width", "1", "--height", "2", "--period",
+                            "1", "--pulse", "ricker")
+
     def test_an_unknown_subcommand_is_reported_with_a_suggestion(self):
         self.assert_refused(2, ["rum", "Did you mean \"run\"?", "--help"], "rum", "small.toml")
         self.assert_refused(2, ["Did you mean \"boundary\"?"], "help", "boundry")

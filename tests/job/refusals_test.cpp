@@ -190,6 +190,7 @@ MISTAKES(Physics,
 
 MISTAKES(Scene,
     {"AnUnknownPulse", 3, "pulse = \"one-sine\"", "3:9", {"scene.pulse = \"one-sine\" is unknown", "Did you mean \"one_sine\"?", "antisymmetric_ricker"}},
+    {"APartOfAPulse", 3, "pulse = \"ricker\"", "3:9", {"Did you mean \"symmetric_ricker\"?"}},
     {"AFarFetchedPulse", 3, "pulse = \"earthquake\"", "3:9", {"is unknown. Allowed: one_sine, one_cosine"}},
     {"AnUnknownTheory", 3, "pulse = \"one_sine\"\ntheory = \"non-linear\"", "4:10", {"Did you mean \"nonlinear\"?", "Allowed: nonlinear, linear"}},
     {"AWindowOnAPulseThatEnds", 3, "pulse = \"one_sine\"\nwindow = 1.0", "4:10", {"scene.window has no meaning", "\"one_sine\"", "symmetric_ricker, antisymmetric_ricker"}},

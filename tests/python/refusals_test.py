@@ -70,6 +70,11 @@ class ARefusal(Refused):
                             pulse_period=[[1], [np.inf]], pga=[0.1, 0.2, 0.3])
         self.assert_refused(ValueError, "at index (0, 1): scale = -1 is outside", RECORD, scale=[[1, -1]])
 
+    def test_suggests_the_nearest_word(self):
+        for name, value, meant in (("pulse", "ricker", "symmetric_ricker"), ("method", "rk4", "rk45"),
+                                   ("theory", "Linear", "linear"), ("fields", ["peeks"], "peak")):
+            self.assert_refused(ValueError, f'Did you mean "{meant}"?', **{name: value})
+
     def test_names_no_index_of_a_number(self):
         for name, value, phrase in (("restitution", 1.2, "restitution = 1.2 is outside (0, 1]"),
                                     ("height", np.nan, "height = nan is outside"),

@@ -44,6 +44,29 @@ TEST(NearestName, IsOneThatBeginsWithTheWordOrTheOtherWayRound)
     EXPECT_EQ(nearest_name("mu", keys), "friction");
 }
 
+TEST(NearestName, IsTheShortestOneOfWhichTheWordIsAPart)
+{
+    constexpr std::string_view pulses[]{"antisymmetric_ricker", "symmetric_ricker", "half_sine"};
+    EXPECT_EQ(nearest_name("ricker", pulses), "symmetric_ricker");
+    EXPECT_EQ(nearest_name("Ricker", pulses), "symmetric_ricker");
+    EXPECT_EQ(nearest_name("a_half_sine_pulse", pulses), "half_sine");
+    EXPECT_EQ(nearest_name("rick", pulses), "");
+}
+
+TEST(NearestName, IsOneWithWhichTheWordBegins)
+{
+    constexpr std::string_view spacings[]{"linear", "log", "g"};
+    EXPECT_EQ(nearest_name("logarithmic", spacings), "log");
+    EXPECT_EQ(nearest_name("gal", spacings), "");
+}
+
+TEST(NearestName, IsSuggestedInASentence)
+{
+    EXPECT_EQ(suggestion("one_sne", names), " Did you mean \"one_sine\"?");
+    EXPECT_EQ(suggestion("cuont", names, "plane.pga."), " Did you mean \"plane.pga.count\"?");
+    EXPECT_EQ(suggestion("earthquake", names), "");
+}
+
 TEST(NearestName, IsEmptyForAWordUnlikeAll)
 {
     EXPECT_EQ(nearest_name("earthquake", names), "");
