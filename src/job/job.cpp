@@ -119,6 +119,20 @@ std::vector<Field> read_fields(const Entry& job)
     return fields;
 }
 
+/// How to fill without the fields that cannot be filled; empty if that is not enough.
+std::string advice_on_filled_fields(Problem problem)
+{
+    std::erase_if(problem.fields,
+                  [](Field field) { return traits_of(field).of != FieldOf::filled_point; });
+    if (problem.fields.empty()) {
+        problem.fields = {Field::region};
+    }
+    return reason_not_to_fill(problem).empty()
+               ? fmt::format(", or --set 'output.fields=[\"{}\"]' to fill",
+                             fmt::join(mapped(problem.fields, &Field::name), "\", \""))
+               : "";
+}
+
 /// Refuses numerics and fields that are not possible for the scene and the points: error bounds at
 /// a loose tolerance, forces of the contact in the linear theory, filling.
 void expect_computable(const Entry& job, const Problem& problem)
@@ -145,7 +159,9 @@ void expect_computable(const Entry& job, const Problem& problem)
     const std::string reason = problem.product.audit() ? reason_not_to_fill(problem) : "";
     if (!reason.empty()) {
         refuse(key("numerics", "fill"),
-               " = true is not possible: {}. Remove it to integrate every point.", reason);
+               " = true is not possible: {}. Use --set numerics.fill=false to integrate every "
+               "point{}.",
+               reason, advice_on_filled_fields(problem));
     }
 }
 
@@ -243,7 +259,8 @@ Job boundary_of(Job job)
     if (problem.product.audit()) {
         throw Error(
             exit_code::job,
-            "numerics.fill = true is for spectra; a boundary is found without filling. Remove it.");
+            "numerics.fill = true is for spectra; a boundary is found without filling. Use --set "
+            "numerics.fill=false.");
     }
     if (const Column& strength = *problem.grid.axis_or_number(Role::strength);
         strength.values.size() == 1) {

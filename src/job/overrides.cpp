@@ -137,6 +137,9 @@ void drop_keys(toml::table& job, const Path& path, const toml::table& given)
             erase(job, "scene", number);
         }
     }
+    if (path == Path{"numerics", "fill"} && !given["numerics"]["fill"].value_or(true)) {
+        erase(job, "numerics", "audit");
+    }
     if (path[0] == "blocks") {
         drop_coordinates(job, path, [](const Quantity& other) {
             return other.role == Role::block || other.role == Role::loss;

@@ -1,6 +1,8 @@
 """Filled spectra: the same bytes from any ranks and kernels and after an interruption, and an audit
 that the file and the terminal report."""
 
+import re
+import shlex
 import unittest
 
 import h5py
@@ -79,6 +81,23 @@ class FilledSpectra(Scratch):
         text = self.overturn("check", "small.toml", *FILL).stdout
         self.assertRegex(text, r"% of the points are integrated; all of them would take")
         self.assertIn("field        evaluated, 60.0 kB", text)
+
+    def test_are_refused_with_arguments_that_work(self):
+        for wrong, count in (({'output.fields=["impacts", "angle", "region"]'}, 2), ({'output.fields=["margin"]'}, 2),
+                             ({"plane.frequency.values=[1, 2]"}, 1),
+                             ({"plane.frequency.values=[1, 2]", 'output.fields=["angle"]'}, 1)):
+            given = [word for each in ("numerics.fill=true", "numerics.audit=0.1", *wrong) for word in ("--set", each)]
+            refused = self.overturn("check", "small.toml", *given)
+            self.assert_exit(refused, 65, "numerics.fill = true is not possible")
+            advice = re.findall(r"--set (?:'[^']*'|\S+)", refused.stderr.split("not possible")[1])
+            self.assertEqual(len(advice), count, refused.stderr)
+            for words in map(shlex.split, advice):
+                checked = self.overturn("check", "small.toml", *given, *words)
+                self.assert_exit(checked, 0)
+                self.assertEqual("of the points are integrated" in checked.stdout, "fill" not in words[1])
+        refused = self.overturn("boundary", "small.toml", *FILL)
+        self.assert_exit(refused, 65, "Use --set numerics.fill=false.")
+        self.assert_exit(self.overturn("boundary", "small.toml", "-o", "b.h5", *FILL, "--set", "numerics.fill=false"), 0)
 
     def test_are_refused_as_boundaries(self):
         result = self.overturn("boundary", "small.toml", *FILL, "-o", "boundary.h5")

@@ -72,7 +72,7 @@ class ARefusal(Refused):
 
     def test_suggests_the_nearest_word(self):
         for name, value, meant in (("pulse", "ricker", "symmetric_ricker"), ("method", "rk4", "rk45"),
-                                   ("theory", "Linear", "linear"), ("fields", ["peeks"], "peak")):
+                                   ("theory", "Linear", "linear"), ("fields", ["peaks"], "peak")):
             self.assert_refused(ValueError, f'Did you mean "{meant}"?', **{name: value})
 
     def test_names_no_index_of_a_number(self):
