@@ -214,6 +214,10 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
     number("--pga-max", options.pga_max, "G", "Largest peak ground acceleration of the search",
            largest_pga)
         ->capture_default_str();
+    command
+        .add_flag("--no-search", options.without_search,
+                  "Only the verdict at --pga or --scale, without ranges")
+        ->excludes("--pga-max");
     add_text(command, "--set", options.overrides, "scene.KEY=VALUE",
              "Set a key of [scene]; repeatable")
         ->allow_extra_args(false);

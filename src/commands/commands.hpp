@@ -62,6 +62,7 @@ struct ToppleOptions {
     std::optional<double> restitution_of_maximum; ///< default, without the others: 1
     std::vector<std::string> overrides;           ///< of keys of [scene]
     double pga_max = 5;                           ///< the largest acceleration searched, over g [1]
+    bool without_search = false;                  ///< only the verdict at the asked strength
     bool json = false;
     std::string history; ///< path of a file of the motion; empty: none
 };

@@ -63,6 +63,8 @@ void expect_consistent(const ToppleOptions& options)
               "the ground motion is missing. Give --period with the period of a pulse [s], or "
               "--record with the file of a recorded motion.");
     expect_keys_of_scene(options.overrides);
+    refuse_if(options.without_search && !options.pga && !options.scale,
+              "--no-search leaves the verdict at one acceleration. Give --pga or --scale.");
     refuse_if(!options.history.empty() && !options.pga && !options.scale,
               "--history is that of one acceleration. Give --pga or --scale.");
 }
@@ -112,6 +114,7 @@ std::vector<DirectedAnswer> answers_for(std::vector<Job> jobs, const ToppleOptio
     ToppleQuestion question{.has_strength = options.pga || options.scale,
                             .pga = options.pga,
                             .pga_max = options.pga_max,
+                            .searches = !options.without_search,
                             .threads = threads_of_processor()};
     question.progress = [&](std::size_t done, std::size_t restitutions) {
         if (!progress) {

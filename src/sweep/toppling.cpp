@@ -107,7 +107,8 @@ std::vector<RestitutionAnswer> answers_by_restitution(const Problem& problem, co
 {
     const double requested = point.block.restitution;
     const auto r_max = r_max_of_only_block(problem);
-    const std::vector<double> ratios = restitutions_of(requested, r_max);
+    const std::vector<double> ratios =
+        question.searches ? restitutions_of(requested, r_max) : std::vector{requested};
     std::vector<RestitutionAnswer> answers(ratios.size());
     std::vector<std::size_t> distinct{0}; // the requested one, and those that differ from it
     for (std::size_t i = 1; i < ratios.size(); ++i) {
@@ -129,8 +130,10 @@ std::vector<RestitutionAnswer> answers_by_restitution(const Problem& problem, co
             const std::size_t i = distinct[number];
             BoundaryLine line = line_of(point, answer.unit);
             line.point.block.restitution = ratios[i];
-            answers[i].ranges = verdict_ranges(problem.scene, line, answer.lifting_pga, end,
-                                               answer.pga, show_progress);
+            if (question.searches) {
+                answers[i].ranges = verdict_ranges(problem.scene, line, answer.lifting_pga, end,
+                                                   answer.pga, show_progress);
+            }
             ++done;
         },
         nullptr);

@@ -124,6 +124,31 @@ class Toppling(Scratch):
             self.assertEqual(self.topple(*words, "--velocity-restitution", "0.8"),
                              self.topple(*words, "--restitution", repr(0.8 * 0.8)))
 
+    def test_without_a_search_gives_the_verdict_only(self):
+        searched = {"friction_to_topple", "toppling_pga_below", "toppling_pga_above", "toppling_pga", "safe_pga",
+                    "undecided_pga", "toppling_intervals", "undecided_share", "end_of_search", "coarse_search",
+                    "by_restitution"}
+        sentence = re.compile("(?:topples|does not topple) at [^;]*")
+        for words in ((*PULSE, "--pga", "0.9"), (*PULSE, "--pga", "6"), (*RECORD, "--scale", "1.5"),
+                      (*STATUE, "--center-offset", "0.05", "--period", "0.5", "--pga", "0.7"),
+                      (*PULSE, "--pga", "0.9", "--friction", "0.3")):
+            whole, verdict = self.answer(*words), self.answer(*words, "--no-search")
+            self.assertEqual(whole.keys(), verdict.keys())
+            for answer, other in ((whole, verdict), *zip(sorted(whole["by_direction"], key=lambda each: each["direction"]),
+                                                         sorted(verdict["by_direction"], key=lambda each: each["direction"]))):
+                for name in other.keys() - {"by_direction", "pga_max", "narrower_ranges_exist"}:
+                    if name == "verdict":
+                        self.assertEqual(sentence.match(answer[name])[0], other[name])
+                    else:
+                        self.assertEqual(other[name], None if name in searched else answer[name], name)
+            self.assertIsNone(verdict["pga_max"])
+            text = self.topple(*words, "--no-search")
+            self.assertIn(f"verdict      {verdict['verdict']}\n", text)
+            self.assertNotIn("r/r_max", text)
+            self.assertNotIn("ranges", text)
+        self.assert_refused(2, ["Give --pga or --scale"], "topple", *PULSE, "--no-search")
+        self.assert_refused(2, ["--pga-max excludes --no-search"], "topple", *PULSE, "--pga", "1", "--no-search", "--pga-max", "2")
+
     def test_without_an_acceleration_gives_the_ranges_only(self):
         answer = self.answer(*PULSE)
         self.assertIsNone(answer["topples"])

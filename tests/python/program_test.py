@@ -92,6 +92,10 @@ class AnAnswer(InAFolder):
         with overturn.open("worse.h5") as history:
             self.assertGreater(float(abs(history.angle).max()), 1.5)
 
+    def test_without_a_search_is_the_verdict(self):
+        answer = overturn.topple(width=0.6, height=1.8, period=0.5, pga=0.9, search=False)
+        self.assertEqual((answer["verdict"], answer["toppling_pga"]), ("does not topple at 0.9 g", None))
+
     def test_under_a_record_and_other_gravity(self):
         answer = overturn.topple(width=0.6, height=1.8, record=JOBS / "synthetic.AT2", scale=1, pga_max=0.5,
                                  overrides={"scene.gravity": 1.62})

@@ -86,13 +86,14 @@ def run(job: Job, ranks: int = 1, *, output: str | os.PathLike[str] | None = Non
 def topple(*, direction: float | None = None, pulse: str | None = None, period: float | None = None,
            record: str | os.PathLike[str] | None = None, component: str | int | None = None, pga: float | None = None,
            scale: float | None = None, restitution: float | None = None, velocity_restitution: float | None = None,
-           restitution_of_maximum: float | None = None, pga_max: float | None = None,
+           restitution_of_maximum: float | None = None, pga_max: float | None = None, search: bool = True,
            history: str | os.PathLike[str] | None = None, overrides: Mapping[str, Any] | None = None,
            **block: float) -> dict[str, Any]:
     """Returns the answer of `overturn topple`: whether one block topples, and at which peak accelerations.
 
     block: width and height [m], incline [rad] and so on; with all other arguments, the options of the command.
     record: the path of a recorded motion. evaluate() takes accelerations.
+    search: if false, only the verdict at `pga` or `scale`, in a fraction of the time; what needs the search is None.
     history: path of a file, to which the motion at `pga` or `scale` is written.
     overrides: keys of [scene] and their new values, such as {"scene.gravity": 1.62}.
 
@@ -108,7 +109,7 @@ def topple(*, direction: float | None = None, pulse: str | None = None, period: 
              "pga_max": pga_max, "history": history}
     _expect_file_names("" if record is None else record, "scene.record")
     options = [f"--{name.replace('_', '-')}={_option_text(value)}" for name, value in given.items()
-               if value is not None]
+               if value is not None] + ["--no-search"] * (not search)
     answer = json.loads(_output_of([overturn_path(), "topple", "--json", *options, *_set_arguments(overrides)]))
     for text in answer["warnings"]:
         warnings.warn(f"{text}.", stacklevel=2)

@@ -22,6 +22,7 @@ struct ToppleQuestion {
     bool has_strength;         ///< whether the strength of the point is asked for
     std::optional<double> pga; ///< its peak acceleration over g, if that is given [1]
     double pga_max;            ///< the end of the search, unless the strength is larger [1]
+    bool searches = true;      ///< for ranges; otherwise only the verdict at the strength
     int threads = 1;
     /// Called again and again in the thread of the caller, with the numbers of restitutions that
     /// are computed, and of all.
@@ -52,7 +53,8 @@ struct ToppleAnswer {
     double pga = 0;                 ///< of the point
     double unit = 0;                ///< of the strength 1: of the record that is not scaled
     double lifting_pga = 0;
-    std::vector<RestitutionAnswer> by_restitution; ///< the requested one first
+    std::vector<RestitutionAnswer>
+        by_restitution; ///< the requested one first; without a search only it
 
     const RestitutionAnswer& requested() const { return by_restitution.front(); }
 };

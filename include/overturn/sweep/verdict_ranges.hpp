@@ -24,12 +24,13 @@ struct VerdictRange {
 
 struct VerdictRanges {
     /// From 0 to the end of the search, ascending and without gaps. The first one is safe: the
-    /// block is not lifted.
-    std::vector<VerdictRange> all;
+    /// block is not lifted. Empty without a search.
+    std::vector<VerdictRange> all{};
     double lifting = 0;                   ///< the acceleration that lifts the block, over g
     std::optional<CoarseSearch> coarse{}; ///< what was searched in wide steps, if anything was
     bool ends_in_free_fall = false; ///< beyond the search, the vertical motion cancels gravity
 
+    bool are_searched() const { return !all.empty(); }
     double end_of_search() const { return all.back().last; }
 
     std::vector<VerdictRange> with(Verdict verdict) const;

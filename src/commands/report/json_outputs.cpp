@@ -64,6 +64,14 @@ void add(Json& members, const RestitutionAnswer& answer, const std::optional<dou
     const VerdictRanges& ranges = answer.ranges;
     members["restitution"] = answer.ratio;
     members["restitution_of_maximum"] = answer.share;
+    if (!ranges.are_searched()) {
+        for (const char* name : {"toppling_pga_below", "toppling_pga_above", "toppling_pga",
+                                 "safe_pga", "undecided_pga", "toppling_intervals",
+                                 "undecided_share", "end_of_search", "coarse_search"}) {
+            members[name] = Json();
+        }
+        return;
+    }
     members["toppling_pga_below"] =
         pga ? if_known(ranges.nearest_below(Verdict::topples, *pga)) : Json();
     members["toppling_pga_above"] =
@@ -98,7 +106,8 @@ void add(Json& members, const DirectedAnswer& directed, const std::string* verdi
     members["peak_degrees"] = pga && alpha ? Json(in_degrees(answer.peak * *alpha)) : Json();
     members["friction_demand"] = if_known(answer.friction_demand);
     members["lifts_off"] = answer.friction_demand && std::isinf(*answer.friction_demand);
-    members["friction_to_topple"] = answer.friction_to_topple;
+    const bool is_searched = answer.requested().ranges.are_searched();
+    members["friction_to_topple"] = is_searched ? Json(answer.friction_to_topple) : Json();
     members["lifting_pga"] = answer.lifting_pga;
     Json& slip = members["slip"];
     if (answer.slip) {
@@ -113,7 +122,7 @@ void add(Json& members, const DirectedAnswer& directed, const std::string* verdi
                                                                    : Json();
     }
     add(members, answer.requested(), pga);
-    Json& others = members["by_restitution"] = Json::array();
+    Json& others = members["by_restitution"] = is_searched ? Json::array() : Json();
     for (std::size_t i = 1; i < answer.by_restitution.size(); ++i) {
         add(others.emplace_back(), answer.by_restitution[i], pga);
     }
@@ -157,8 +166,10 @@ Json members_of(const Job& job, const ToppleOptions& options)
     for (const char* name : names) {
         members[name] = extent_of(job, name)->first;
     }
-    members["pga_max"] = options.pga_max;
-    members["narrower_ranges_exist"] = scene.motion_traits().is_sensitive ? Json(true) : Json();
+    const bool is_searched = !options.without_search;
+    members["pga_max"] = is_searched ? Json(options.pga_max) : Json();
+    members["narrower_ranges_exist"] =
+        is_searched && scene.motion_traits().is_sensitive ? Json(true) : Json();
     members["warnings"] = warnings_on(job);
     return members;
 }

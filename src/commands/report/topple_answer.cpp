@@ -127,10 +127,13 @@ void print_question(const std::vector<DirectedAnswer>& all, const ToppleOptions&
 void print_ranges(const Scene& scene, const ToppleAnswer& answer)
 {
     const VerdictRanges& requested = answer.requested().ranges;
-    const int decimals = decimals_of(requested, answer.pga);
     print_row("lifts from", std::isinf(answer.lifting_pga)
                                 ? "no strength"
                                 : fmt::format("{:.4f} g", rounded_down(answer.lifting_pga, 4)));
+    if (!requested.are_searched()) {
+        return;
+    }
+    const int decimals = decimals_of(requested, answer.pga);
     print_row("topples", text_of(requested, decimals) +
                              (requested.ends_in_free_fall
                                   ? fmt::format("; at {:.6g} g the vertical motion cancels gravity",
@@ -194,7 +197,7 @@ void print_answer(const std::vector<DirectedAnswer>& all, const ToppleOptions& o
         }
         print_ranges(job.problem.scene, answer);
     }
-    if (all.front().job.problem.scene.motion_traits().is_sensitive) {
+    if (all.front().job.problem.scene.motion_traits().is_sensitive && !options.without_search) {
         double undecided = 0;
         for (const auto& [job, history, answer] : all) {
             undecided = std::max(undecided, undecided_share(answer));

@@ -282,7 +282,8 @@ std::string verdict_sentence(const ToppleAnswer& answer, const std::optional<dou
     if (answer.verdict == Verdict::topples) {
         return text;
     }
-    const bool is_end = answer.pga >= answer.requested().ranges.end_of_search();
+    const VerdictRanges& ranges = answer.requested().ranges;
+    const bool is_end = ranges.are_searched() && answer.pga >= ranges.end_of_search();
     return text + text_of_nearest(answer, asked) +
            (is_end ? "; larger accelerations are not searched" : "") +
            text_of_worst_restitution(answer, asked);
