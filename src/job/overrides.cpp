@@ -141,8 +141,9 @@ void drop_keys(toml::table& job, const Path& path, const toml::table& given)
         erase(job, "numerics", "audit");
     }
     if (path[0] == "blocks") {
+        // Other keys that a column contradicts are dropped when the table has been read.
         drop_coordinates(job, path, [](const Quantity& other) {
-            return other.role == Role::block || other.role == Role::loss;
+            return other.role == Role::block && other.scope.shapes != 0;
         });
     }
     // A new shape replaces the table that describes the blocks; a size alone is none.

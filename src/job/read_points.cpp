@@ -147,6 +147,18 @@ std::string columns_text(const BlockTable& blocks)
            error.what(), blocks ? columns_text(*blocks) : "");
 }
 
+/// Drops the coordinates that the file of the job gives, but a column of an overriding table, too.
+void drop_keys_of_file(const Entry& job, const std::vector<Given>& columns,
+                       std::vector<Given>& given)
+{
+    std::erase_if(given, [&](const Given& each) {
+        const toml::node& node = *toml::at_path(*job.node, each.label).node();
+        return !is_override(node) && std::ranges::any_of(columns, [&](const Given& column) {
+            return exclude_each_other(column.quantity->name, each.quantity->name);
+        });
+    });
+}
+
 } // namespace
 
 void read_points(const Entry& entry, const std::string& folder, Job& job)
@@ -161,7 +173,11 @@ void read_points(const Entry& entry, const std::string& folder, Job& job)
         const Entry path =
             require(table_of(entry, "blocks"), "table", "Give the path of a table of blocks.");
         job.blocks = read_block_table(string_of(path), folder, motion, job.motions);
-        std::ranges::move(columns_of(*job.blocks, motion), std::back_inserter(given));
+        std::vector<Given> columns = columns_of(*job.blocks, motion);
+        if (is_override(*path.node)) {
+            drop_keys_of_file(entry, columns, given);
+        }
+        std::ranges::move(columns, std::back_inserter(given));
     }
     const auto csv_has = [&](std::string_view name) {
         return job.blocks && job.blocks->table.find(name) != nullptr;

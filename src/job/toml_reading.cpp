@@ -137,6 +137,12 @@ std::string place_of(const toml::source_region& source)
     return fmt::format("{}:{}:{}", path, source.begin.line, source.begin.column);
 }
 
+bool is_override(const toml::node& node)
+{
+    const auto& path = node.source().path;
+    return path != nullptr && path->starts_with(override_prefix);
+}
+
 void expect_table(const Entry& entry, Names allowed, std::string_view or_else)
 {
     const toml::table* table = entry.node->as_table();

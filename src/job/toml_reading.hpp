@@ -60,6 +60,9 @@ template <class... Arguments>
 /// in the message, and names other allowed types.
 void expect_table(const Entry& entry, Names allowed, std::string_view or_else = "");
 
+/// Whether a --set argument gives the value.
+bool is_override(const toml::node& node);
+
 /// The entry of a table with this name; nullopt if there is none.
 std::optional<Entry> find(const Entry& table, std::string_view name);
 

@@ -172,6 +172,22 @@ TEST(AnOverride, OfATableReplacesTheBlockAndItsRestitution)
     EXPECT_EQ(again.problem.grid.table(), nullptr) << "a shape of the block replaces the table";
 }
 
+TEST(AnOverride, OfATableKeepsWhatNoColumnContradicts)
+{
+    const ScratchFolder folder;
+    write_bytes(folder / "blocks.csv", "width,height,amplitude\n1,5,2\n");
+    const std::string table = fmt::format("blocks.table='{}'", folder / "blocks.csv");
+    const std::string text = sound_job_with(8, "slenderness = 0.1745716\nfriction = 0.3\nsize = 2");
+    const Job job = job_of(text, {table, "output.fields=[\"region\"]"});
+    EXPECT_EQ(axis(job, "restitution_of_maximum").values(), (AxisList{0.7, 0.85}));
+    EXPECT_EQ(axis(job, "friction").values(), AxisList{0.3});
+    EXPECT_EQ(axis(job, "amplitude").values(), AxisList{2});
+    EXPECT_FALSE(gives(job, "slenderness") || gives(job, "size"));
+    EXPECT_THAT(refusal_of(text, {table, "plane.amplitude=3"}),
+                HasSubstr("amplitude cannot be combined with plane.amplitude"))
+        << "what an argument gives is not dropped";
+}
+
 TEST(AnOverride, OfTheMotionRemovesTheQuantitiesThatDoNotApply)
 {
     const ScratchFolder folder;
