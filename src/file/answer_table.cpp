@@ -2,46 +2,29 @@
 
 #include "working_file.hpp"
 
-#include "overturn/text/error.hpp"
-
-#include <cerrno>
-#include <filesystem>
-#include <fstream>
-
 namespace overturn {
+
+namespace {
+
+constexpr OwnText table{.kind = "a table of answers",
+                        .is_own =
+                            [](std::string_view beginning) {
+                                const std::string_view names =
+                                    beginning.substr(0, beginning.find('\n'));
+                                return names.find(column_of_answers) != names.npos;
+                            },
+                        .option = "--csv"};
+
+} // namespace
 
 void expect_place_for_answers(const std::string& path)
 {
-    const PartFile place(path);
-    std::error_code none;
-    if (!std::filesystem::exists(path, none)) {
-        return;
-    }
-    std::string head;
-    if (std::filesystem::is_regular_file(path)) { // opening a pipe would wait for its other end
-        std::ifstream stream(path, std::ios::binary);
-        std::getline(stream, head);
-    }
-    if (head.find(column_of_answers) == std::string::npos) {
-        throw Error(exit_code::output,
-                    "\"{}\" exists but is not a table of answers. Move it away, or choose another "
-                    "name.",
-                    path);
-    }
+    expect_place_for_text(path, table);
 }
 
 void write_answers(const std::string& path, std::string_view text)
 {
-    expect_place_for_answers(path); // a file may have appeared during the computation
-    PartFile part(path);
-    errno = 0;
-    std::ofstream stream(part.path(), std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) {
-        throw Error(exit_code::output, "cannot write \"{}\": {}.", path, system_reason(errno));
-    }
-    part.move_into_place();
+    write_text(path, table, text);
 }
 
 } // namespace overturn

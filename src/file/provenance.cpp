@@ -1,16 +1,11 @@
 #include "overturn/file/provenance.hpp"
 
-#include "overturn/text/error.hpp"
-
 #include "program_identity.hpp"
 #include "working_file.hpp"
 
+#include <fmt/format.h>
 #include <hdf5.h>
 #include <mpi.h>
-
-#include <cerrno>
-#include <filesystem>
-#include <fstream>
 
 namespace overturn {
 
@@ -58,41 +53,24 @@ std::string_view program_commit()
     return identity::commit;
 }
 
+namespace {
+
+constexpr OwnText sidecar{
+    .kind = "the sidecar file of this run",
+    .is_own = [](std::string_view beginning) { return beginning.starts_with(sidecar_beginning); },
+    .option = "-o"};
+
+} // namespace
+
 void expect_place_for_sidecar(const std::string& spectrum_path)
 {
-    const std::string path = spectrum_path + ".json";
-    const PartFile place(path);
-    std::error_code none;
-    if (!std::filesystem::exists(path, none)) {
-        return;
-    }
-    std::string beginning(sidecar_beginning.size(), '\0');
-    if (std::filesystem::is_regular_file(path)) { // opening a pipe would wait for its other end
-        std::ifstream(path, std::ios::binary).read(beginning.data(), int(beginning.size()));
-    }
-    if (beginning != sidecar_beginning) {
-        throw Error(exit_code::output,
-                    "\"{}\" exists but is not the sidecar file of an overturn run. Move it "
-                    "away, or choose another name with -o.",
-                    path);
-    }
+    expect_place_for_text(spectrum_path + ".json", sidecar);
 }
 
 void write_sidecar(const std::string& spectrum_path, std::string_view text)
 {
-    expect_place_for_sidecar(spectrum_path); // a file may have appeared during the run
-    PartFile part(spectrum_path + ".json");
-    errno = 0;
-    std::ofstream stream(part.path(), std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) {
-        throw Error(exit_code::output,
-                    "cannot write \"{0}.json\", the sidecar file of this run: {1}. The "
-                    "computed tiles are in \"{0}\" nevertheless.",
-                    spectrum_path, system_reason(errno));
-    }
-    part.move_into_place();
+    write_text(spectrum_path + ".json", sidecar, text,
+               fmt::format(" The computed tiles are in \"{}\" nevertheless.", spectrum_path));
 }
 
 } // namespace overturn
