@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace overturn {
 
@@ -157,12 +158,85 @@ std::string note_on(const ObjectAnswer& answer)
     return fmt::format("{}", fmt::join(notes, "; "));
 }
 
+namespace {
+
+/// A column of the printed table.
+struct PrintedColumn {
+    std::string format; ///< of its cells
+    std::string_view heading;
+    std::function<std::string(const ObjectAnswer&)> cell;
+};
+
+std::vector<PrintedColumn> printed_columns(const Job& job, const std::vector<ObjectAnswer>& answers,
+                                           bool has_cases)
+{
+    const auto name = [&blocks = *job.blocks](const ObjectAnswer& answer) {
+        return printable(name_of_object(blocks, answer.object));
+    };
+    const std::size_t longest =
+        std::ranges::max(mapped(answers, [&](const auto& answer) { return name(answer).size(); }));
+    const std::size_t width = std::clamp<std::size_t>(longest, 6, 32);
+    std::vector<PrintedColumn> columns;
+    const auto add = [&](std::string format, std::string_view heading, const auto& cell) {
+        columns.push_back({std::move(format), heading, cell});
+    };
+    // Columns that differ in the strength that they show.
+    const auto add_strength = [&](std::string_view heading, auto ObjectAnswer::*pga) {
+        add("{:>15}", heading, [pga](const ObjectAnswer& answer) {
+            return strength_text(answer.*pga, answer.end_of_search) + " g";
+        });
+    };
+    const auto moves = [](double pga) {
+        return std::isinf(pga) ? std::string("never") : fmt::format("{:.4f} g", pga);
+    };
+    const bool has_strength = answers.front().verdict.has_value();
+    const bool may_slip = job.problem.grid.may_slip();
+    add(fmt::format("{{:<{}}}", width), "object",
+        [=](const ObjectAnswer& answer) { return name(answer).substr(0, width); });
+    if (has_strength) {
+        add("  {:<16}", "verdict", outcome_word);
+        add("{:>11}", "of motions", [](const ObjectAnswer& answer) {
+            return fmt::format("{:.0f} %", 100.0 * double(answer.toppling) / double(answer.cases));
+        });
+        add("{:>9}", "tilt", [](const ObjectAnswer& answer) -> std::string {
+            return std::isnan(answer.peak)   ? "unknown"
+                   : std::isinf(answer.peak) ? "over"
+                                             : fmt::format("{:.0f} %", 100 * answer.peak);
+        });
+    }
+    add("{:>13}", "lifts from",
+        [=](const ObjectAnswer& answer) { return moves(answer.lifting_pga); });
+    if (may_slip) {
+        add("{:>13}", "slides from", [=](const ObjectAnswer& answer) {
+            return answer.moving_pga < answer.lifting_pga ? moves(answer.moving_pga)
+                                                          : "lifts first";
+        });
+    }
+    add_strength("topples from", &ObjectAnswer::toppling_pga);
+    if (has_cases) {
+        add_strength("16 %", &ObjectAnswer::percentile_16);
+        add_strength("median", &ObjectAnswer::median);
+    }
+    if (has_strength && may_slip) {
+        add("{:>11}", "slide", [](const ObjectAnswer& answer) -> std::string {
+            return std::isnan(answer.slide) ? "unknown"
+                                            : fmt::format("{:.3g} mm", 1000 * answer.slide);
+        });
+    }
+    add("{}", "  note", [](const ObjectAnswer& answer) {
+        const std::string note = note_on(answer);
+        return note.empty() ? "" : "  " + note;
+    });
+    return columns;
+}
+
+} // namespace
+
 void print_assessment(const Job& job, const std::vector<ObjectAnswer>& answers,
                       const AssessOptions& options)
 {
     const Scene& scene = job.problem.scene;
     const bool has_strength = answers.front().verdict.has_value();
-    const bool may_slip = job.problem.grid.may_slip();
     const std::int64_t cases =
         std::ranges::max(mapped(answers, [](const ObjectAnswer& each) { return each.cases; }));
     print_row("objects", fmt::format("{} in {}", answers.size(), printable(options.objects)));
@@ -182,57 +256,17 @@ void print_assessment(const Job& job, const std::vector<ObjectAnswer>& answers,
         print_row("cases",
                   fmt::format("up to {} of each object: motions, periods and directions", cases));
     }
-    std::size_t width = 6;
+    const std::vector<PrintedColumn> columns = printed_columns(job, answers, cases > 1);
+    fmt::print("\n");
+    for (const PrintedColumn& column : columns) {
+        fmt::print(fmt::runtime(column.format), column.heading);
+    }
+    fmt::print("\n");
     for (const ObjectAnswer& answer : answers) {
-        width = std::max(width, name_of_object(*job.blocks, answer.object).size());
-    }
-    width = std::min<std::size_t>(width, 32);
-    fmt::print("\n{:<{}}", "object", width);
-    if (has_strength) {
-        fmt::print("  {:<16}{:>11}{:>9}", "verdict", "of motions", "tilt");
-    }
-    fmt::print("{:>13}{}{:>15}", "lifts from", may_slip ? fmt::format("{:>13}", "slides from") : "",
-               "topples from");
-    if (cases > 1) {
-        fmt::print("{:>15}{:>15}", "16 %", "median");
-    }
-    if (has_strength && may_slip) {
-        fmt::print("{:>11}", "slide");
-    }
-    fmt::print("  note\n");
-    for (const ObjectAnswer& answer : answers) {
-        std::string name = printable(name_of_object(*job.blocks, answer.object));
-        fmt::print("{:<{}}", name.substr(0, width), width);
-        if (has_strength) {
-            const std::string tilt = std::isnan(answer.peak) ? "unknown"
-                                     : std::isinf(answer.peak)
-                                         ? "over"
-                                         : fmt::format("{:.0f} %", 100 * answer.peak);
-            fmt::print("  {:<16}{:>9.0f} %{:>9}", outcome_word(answer),
-                       100.0 * double(answer.toppling) / double(answer.cases), tilt);
+        for (const PrintedColumn& column : columns) {
+            fmt::print(fmt::runtime(column.format), column.cell(answer));
         }
-        const auto moves = [](double pga) {
-            return std::isinf(pga) ? std::string("never") : fmt::format("{:.4f} g", pga);
-        };
-        fmt::print("{:>13}", moves(answer.lifting_pga));
-        if (may_slip) {
-            fmt::print("{:>13}", answer.moving_pga < answer.lifting_pga ? moves(answer.moving_pga)
-                                                                        : "lifts first");
-        }
-        const auto strength = [&](const std::optional<double>& pga) {
-            return strength_text(pga, answer.end_of_search) + " g";
-        };
-        fmt::print("{:>15}", strength(answer.toppling_pga));
-        if (cases > 1) {
-            fmt::print("{:>15}{:>15}", strength(answer.percentile_16), strength(answer.median));
-        }
-        if (has_strength && may_slip) {
-            fmt::print("{:>11}", std::isnan(answer.slide)
-                                     ? "unknown"
-                                     : fmt::format("{:.3g} mm", 1000 * answer.slide));
-        }
-        const std::string note = note_on(answer);
-        fmt::print("{}{}\n", note.empty() ? "" : "  ", note);
+        fmt::print("\n");
     }
     fmt::print("\nStrengths are {}, of the worst case, {}.{}\n",
                scene.worded("peak ground accelerations (PGA)"),
