@@ -3,6 +3,7 @@
 #include "point_run.hpp"
 
 #include "overturn/mechanics/energy_criteria.hpp"
+#include "overturn/problem/coordinates.hpp"
 #include "overturn/text/mapped.hpp"
 
 #include <boost/math/tools/minima.hpp>
@@ -10,18 +11,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <optional>
 
 namespace overturn {
 
 namespace {
-
-/// The strength from which on the vertical motion cancels gravity; infinite if there is none.
-double free_fall_strength(const Scene& scene, const BoundaryLine& line)
-{
-    return free_fall_amplitude(scene, line.point) * std::abs(line.unit);
-}
 
 /// Verdicts must be right. The scan uses a loose tolerance and resolves verdicts in doubt.
 constexpr Numerics scanning{.method = Method::taylor, .tolerance = 1e-6, .resolve = true};
@@ -34,9 +30,9 @@ constexpr double widest_step = 0.125;
 /// An undecided verdict may take a second. After this many, the scan is not refined further.
 constexpr std::size_t most_undecided = 16;
 
-/// The outcome of a block at one amplitude.
+/// The outcome of a block at one value.
 struct Probe {
-    double amplitude;
+    double value;
     Region region;
     double margin;
     double impacts;
@@ -45,7 +41,7 @@ struct Probe {
 
 double middle_of(const Probe& below, const Probe& above)
 {
-    return below.amplitude + (above.amplitude - below.amplitude) / 2;
+    return below.value + (above.value - below.value) / 2;
 }
 
 /// Whether the verdict changes between neighbours.
@@ -66,7 +62,7 @@ bool is_rough(const Probe& left, const Probe& middle, const Probe& right)
     if (differ && farthest - nearest > nearest / 64) {
         return true;
     }
-    const double share = (middle.amplitude - left.amplitude) / (right.amplitude - left.amplitude);
+    const double share = (middle.value - left.value) / (right.value - left.value);
     const double straight = left.margin + share * (right.margin - left.margin);
     return std::abs(middle.margin - straight) > nearest / 4;
 }
@@ -83,11 +79,11 @@ bool may_reach_zero(const Probe& left, const Probe& middle, const Probe& right)
     return before >= 0 && after >= 0 && nearest < 32 * std::max(before, after);
 }
 
-/// Adds probes to others and sorts all by amplitude; of equal ones, the added are the last.
+/// Adds probes to others and sorts all by value; of equal ones, the added are the last.
 void add(const std::vector<Probe>& added, std::vector<Probe>& probes)
 {
     probes.insert(probes.end(), added.begin(), added.end());
-    std::ranges::stable_sort(probes, {}, &Probe::amplitude);
+    std::ranges::stable_sort(probes, {}, &Probe::value);
 }
 
 /// Removes probes that are not settled, and those above the first flip that exceeds most_flips.
@@ -103,41 +99,67 @@ void forget_the_useless(std::vector<Probe>& probes, std::size_t most_flips)
     }
 }
 
+/// The points along which verdicts are searched.
+struct Path {
+    std::function<std::vector<Point>(const std::vector<double>&)> at; ///< the points at values
+    /// What steps and widths are shares of, at a value: a strength itself, or the whole range of
+    /// another quantity.
+    std::function<double(double)> scale;
+};
+
+bool may_slip(const Point& point)
+{
+    return std::isfinite(point.friction);
+}
+
+/// Whether a block that just does not overturn on one side does not overturn on the other after the
+/// next impact, which reduces its energy by r.
+bool is_safe_next_to_a_flip(const Scene& scene, const Point& point)
+{
+    const Block<double>& block = point.block;
+    const double ratio = with_theory(scene.theory, [&]<Theory theory>() {
+        return barrier_ratio<theory>(Equations<theory>::separatrix_rate(block, 0.0), block);
+    });
+    return !may_slip(point) && block.restitution * std::max(ratio, 1 / ratio) <= 1;
+}
+
 /// The probes of a line and the effort spent on them.
 class Line {
 public:
-    Line(const Scene& scene, const BoundaryLine& line, Kernel kernel, const FlipSearch& wanted)
-        : search(wanted), scene_(scene), line_(line), kernel_(kernel)
+    Line(const Scene& scene, Path path, Kernel kernel, const FlipSearch& wanted)
+        : search(wanted), scene_(scene), path_(std::move(path)), kernel_(kernel)
     {}
 
     const FlipSearch search;
     std::vector<Probe> undecided; ///< whose verdict could not be settled, in this order
     std::optional<CoarseSearch> coarse;
 
-    /// Whether the two amplitudes are within the flip width, or adjacent doubles.
+    double scale(double value) const { return path_.scale(value); }
+
+    /// Whether the two values are within the flip width, or adjacent doubles.
     bool is_narrow(double below, double above) const
     {
-        return above - below <= search.flip_width * above || std::nextafter(below, above) >= above;
+        return above - below <= search.flip_width * scale(above) ||
+               std::nextafter(below, above) >= above;
     }
 
-    std::vector<Probe> at(const std::vector<double>& amplitudes, const Numerics& numerics)
+    std::vector<Probe> at(const std::vector<double>& values, const Numerics& numerics)
     {
-        std::vector<Point> points(amplitudes.size(), line_.point);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            points[i].amplitude = amplitudes[i] / line_.unit;
-        }
-        computed_ += amplitudes.size();
+        std::vector<Point> points = path_.at(values);
+        const bool are_symmetric = std::ranges::all_of(
+            points, [](const Point& point) { return point.block.is_symmetric(); });
+        computed_ += values.size();
         const PointRun run(scene_, std::move(points), kernel_, search.drop_requested,
-                           line_.point.block.is_symmetric());
+                           are_symmetric);
         const Outcomes outcomes = outcomes_of(
             run, numerics, {.impacts = true, .region = true, .margin = true}, left_in_50_digits_);
         left_in_50_digits_ -= outcomes.in_50_digits;
         std::vector<Probe> probes;
-        for (std::size_t i = 0; i < amplitudes.size(); ++i) {
+        for (std::size_t i = 0; i < values.size(); ++i) {
             // Without a margin, as of a block that still slips, flips are bisected.
             const auto& outcome = outcomes[i];
             const double signed_one = is_safe(outcome.region) ? 1 : -1;
-            probes.push_back({amplitudes[i], outcome.region,
+            probes.push_back({values[i], outcome.region,
                               std::isnan(outcome.margin) ? signed_one : outcome.margin,
                               outcome.impacts});
             if (!is_decided(probes.back().region)) {
@@ -147,79 +169,44 @@ public:
         return probes;
     }
 
-    Probe at(double amplitude) { return at(std::vector{amplitude}, most_accurate)[0]; }
+    Probe at(double value) { return at(std::vector{value}, most_accurate)[0]; }
 
-    /// The amplitude above which the motion lifts the block.
-    double lifting() const
+    bool may_slip_at(double value) const { return may_slip(path_.at({value}).front()); }
+
+    /// Whether there is a safe strip, however narrow, between two values at which the block
+    /// overturns to different sides: where it changes the side, it just does not overturn.
+    bool has_safe_strip(const Probe& below, const Probe& above) const
     {
-        Point point = line_.point;
-        point.amplitude = std::copysign(1.0, line_.unit);
-        return lifting_pga(scene_, point) / pga_of_unit(scene_, point) * std::abs(line_.unit);
-    }
-
-    bool may_slip() const { return std::isfinite(line_.point.friction); }
-
-    /// Whether there is a safe strip, however narrow, between two amplitudes at which the block
-    /// overturns to different sides: a block that just does not overturn on one side must not
-    /// overturn on the other after the next impact, which reduces its energy by r.
-    bool has_safe_strips() const
-    {
-        if (may_slip()) {
-            return false;
-        }
-        const Block<double>& block = line_.point.block;
-        const double ratio = with_theory(scene_.theory, [&]<Theory theory>() {
-            return barrier_ratio<theory>(Equations<theory>::separatrix_rate(block, 0.0), block);
+        return std::ranges::all_of(path_.at({below.value, above.value}), [&](const Point& point) {
+            return is_safe_next_to_a_flip(scene_, point);
         });
-        return block.restitution * std::max(ratio, 1 / ratio) <= 1;
     }
 
     /// Whether no further flips are searched for, by halving steps or between neighbours.
-    bool is_exhausted() const { return computed_ > search.most_amplitudes; }
+    bool is_exhausted() const { return computed_ > search.most_points; }
     void renew_effort() { computed_ = 0; }
 
     /// Records that the step between these two is not searched although it should be.
     void leave_coarse(const Probe& below, const Probe& above)
     {
-        const double step = (above.amplitude - below.amplitude) / above.amplitude;
-        coarse = coarse ? CoarseSearch{std::min(coarse->first, below.amplitude),
-                                       std::max(coarse->last, above.amplitude),
-                                       std::max(coarse->step, step)}
-                        : CoarseSearch{below.amplitude, above.amplitude, step};
+        const double step = (above.value - below.value) / scale(above.value);
+        coarse =
+            coarse ? CoarseSearch{std::min(coarse->first, below.value),
+                                  std::max(coarse->last, above.value), std::max(coarse->step, step)}
+                   : CoarseSearch{below.value, above.value, step};
     }
 
-    /// The amplitudes below that at which the vertical motion cancels gravity; all others are
-    /// undecided.
-    std::vector<double> without_free_fall(std::vector<double> amplitudes)
-    {
-        const double free_fall = free_fall_strength(scene_, line_);
-        const auto first = std::lower_bound(amplitudes.begin(), amplitudes.end(), free_fall);
-        if (first != amplitudes.end()) {
-            add_undecided(*first);
-            add_undecided(amplitudes.back());
-            amplitudes.erase(first, amplitudes.end());
-            const double last = last_before_free_fall(scene_, line_);
-            if (!amplitudes.empty() && amplitudes.back() < last) {
-                amplitudes.push_back(last);
-            }
-        }
-        return amplitudes;
-    }
-
-    void add_undecided(double amplitude)
-    {
-        undecided.push_back({amplitude, Region::undecided, 0, 0});
-    }
+    void add_undecided(double value) { undecided.push_back({value, Region::undecided, 0, 0}); }
 
 private:
     Scene scene_;
-    BoundaryLine line_;
+    Path path_;
     Kernel kernel_;
     std::size_t computed_ = 0;
     int left_in_50_digits_ = search.most_in_50_digits;
 };
 
-/// The bracket of a flip, and the amplitude at which a probe is missing to narrow it further.
+/// The bracket of a flip, and the value at which a probe is missing to narrow it further.
 struct Bracket {
     Probe low;
     Probe high;
@@ -232,13 +219,13 @@ Bracket narrowed(Line& line, const Bracket& given, const std::vector<Probe>& kno
 {
     auto [low, high, missing] = given;
     const Probe* unsettled = nullptr;
-    const auto known_at = [&](double amplitude) -> const Probe* {
-        const auto found = std::ranges::find(known, amplitude, &Probe::amplitude);
-        missing = found == known.end() ? std::optional(amplitude) : std::nullopt;
+    const auto known_at = [&](double value) -> const Probe* {
+        const auto found = std::ranges::find(known, value, &Probe::value);
+        missing = found == known.end() ? std::optional(value) : std::nullopt;
         return missing ? nullptr : &*found;
     };
-    const auto margin = [&](double amplitude) {
-        const Probe* const probe = known_at(amplitude);
+    const auto margin = [&](double value) {
+        const Probe* const probe = known_at(value);
         if (missing) {
             return 0.0; // ends the search
         }
@@ -251,24 +238,26 @@ Bracket narrowed(Line& line, const Bracket& given, const std::vector<Probe>& kno
     };
     std::uintmax_t most_evaluations = 100;
     const auto is_narrow = [&](double one, double other) { return line.is_narrow(one, other); };
-    boost::math::tools::toms748_solve(margin, low.amplitude, high.amplitude, low.margin,
-                                      high.margin, is_narrow, most_evaluations);
+    boost::math::tools::toms748_solve(margin, low.value, high.value, low.margin, high.margin,
+                                      is_narrow, most_evaluations);
     while (!missing && unsettled == nullptr &&
-           !line.is_narrow(low.amplitude, high.amplitude)) { // if a margin of 0 ended it early
+           !line.is_narrow(low.value, high.value)) { // if a margin of 0 ended it early
         margin(middle_of(low, high));
     }
-    if (unsettled != nullptr && line.may_slip()) { // the ends of the range that cannot be settled
-        double first = unsettled->amplitude;
+    if (unsettled != nullptr &&
+        line.may_slip_at(low.value)) { // the ends of the range that cannot be settled
+        double first = unsettled->value;
         double last = first;
         const auto close = [&](Probe& settled_end, double& end) {
-            constexpr double enough = 1e-9; // of the amplitude
-            while (!missing && std::abs(end - settled_end.amplitude) > enough * high.amplitude) {
-                const Probe* const probe = known_at((end + settled_end.amplitude) / 2);
+            constexpr double enough = 1e-9; // of the scale
+            while (!missing &&
+                   std::abs(end - settled_end.value) > enough * line.scale(high.value)) {
+                const Probe* const probe = known_at((end + settled_end.value) / 2);
                 if (missing) {
                     return;
                 }
                 if (!is_decided(probe->region)) {
-                    end = probe->amplitude;
+                    end = probe->value;
                 } else if (is_safe(probe->region) == is_safe(settled_end.region)) {
                     settled_end = *probe;
                 } else {
@@ -278,9 +267,9 @@ Bracket narrowed(Line& line, const Bracket& given, const std::vector<Probe>& kno
         };
         close(low, first);
         close(high, last);
-        if (!missing && line.is_narrow(low.amplitude, high.amplitude)) {
+        if (!missing && line.is_narrow(low.value, high.value)) {
             std::erase_if(line.undecided, [&](const Probe& probe) {
-                return low.amplitude < probe.amplitude && probe.amplitude < high.amplitude;
+                return low.value < probe.value && probe.value < high.value;
             });
         }
     }
@@ -316,12 +305,12 @@ std::vector<Probe> ends_of_narrowed(Line& line, const std::vector<Bracket>& brac
     return ends;
 }
 
-/// Bisects between two amplitudes at which the block overturns to different sides. Returns a safe
-/// amplitude, or the two closest ones if a verdict cannot be settled or the safe strip is narrower
+/// Bisects between two values at which the block overturns to different sides. Returns a safe
+/// value, or the two closest ones if a verdict cannot be settled or the safe strip is narrower
 /// than the flip width.
 std::vector<Probe> between_sides(Line& line, Probe below, Probe above)
 {
-    while (!line.is_narrow(below.amplitude, above.amplitude)) {
+    while (!line.is_narrow(below.value, above.value)) {
         const Probe middle = line.at(middle_of(below, above));
         if (is_safe(middle.region)) {
             return {middle};
@@ -335,18 +324,18 @@ std::vector<Probe> between_sides(Line& line, Probe below, Probe above)
     return {below, above};
 }
 
-/// Searches for an amplitude with the other verdict near `nearest`, the one of three whose margin
+/// Searches for a value with the other verdict near `nearest`, the one of three whose margin
 /// is nearest to 0, by Brent's method.
 std::optional<Probe> other_verdict_near(Line& line, const Probe& before, const Probe& nearest,
                                         const Probe& after)
 {
     std::optional<Probe> found;
     const bool safe = is_safe(nearest.region);
-    const auto distance = [&](double amplitude) {
+    const auto distance = [&](double value) {
         if (found) {
             return 0.0;
         }
-        const Probe probe = line.at(amplitude);
+        const Probe probe = line.at(value);
         if (is_decided(probe.region) && is_safe(probe.region) != safe) {
             found = probe;
         }
@@ -354,7 +343,7 @@ std::optional<Probe> other_verdict_near(Line& line, const Probe& before, const P
     };
     std::uintmax_t most_evaluations = 60;
     constexpr int bits = 26; // half of those of a double, the accuracy of a minimum
-    boost::math::tools::brent_find_minima(distance, before.amplitude, after.amplitude, bits,
+    boost::math::tools::brent_find_minima(distance, before.value, after.value, bits,
                                           most_evaluations);
     return found;
 }
@@ -375,7 +364,7 @@ std::vector<std::size_t> steps_to_halve(const Line& line, const std::vector<Prob
             const Probe& above = probes[end];
             const bool is_new = below.halving == time || above.halving == time;
             const bool is_wide =
-                above.amplitude - below.amplitude > line.search.finest_step * above.amplitude;
+                above.value - below.value > line.search.finest_step * line.scale(above.value);
             if ((steps.empty() || end > steps.back()) && is_new && is_wide) {
                 steps.push_back(end);
             }
@@ -409,39 +398,74 @@ std::vector<Probe> refined(Line& line, std::vector<Probe> probes)
     }
 }
 
-/// These amplitudes, with steps that are wider than `widest`, over their upper amplitude, divided:
-/// first at halves of the upper amplitude, then evenly. Below `lifting`, nothing moves.
-std::vector<double> divided(const std::vector<double>& amplitudes, double widest, double lifting)
+/// These values, and others that divide the steps between them evenly, until each is at most
+/// widest(its lower value, the upper value of the step). Steps that are as wide as allowed, but for
+/// rounding, are not divided.
+template <class Widest>
+std::vector<double> divided(const std::vector<double>& values, const Widest& widest)
 {
-    std::vector<double> halved;
-    for (const double amplitude : amplitudes) {
-        const double below = halved.empty() ? amplitude : halved.back();
-        std::vector<double> between;
-        for (double half = amplitude / 2; half > std::max(below, lifting); half /= 2) {
-            between.push_back(half);
-        }
-        halved.insert(halved.end(), between.rbegin(), between.rend());
-        halved.push_back(amplitude);
-    }
     std::vector<double> all;
-    for (std::size_t i = 0; i < halved.size(); ++i) {
-        const double below = i > 0 ? halved[i - 1] : halved[i];
-        const double step = halved[i] - below;
-        if (step > 0 && halved[i] > lifting) {
-            // Of even steps, the lowest is the widest over its upper amplitude. Steps that are as
-            // wide as allowed, but for rounding, are not divided.
-            const double lowest = widest / (1 - widest) * std::max(below, lifting);
-            const double parts = std::ceil(step / lowest - 1e-9);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double below = i > 0 ? values[i - 1] : values[i];
+        const double step = values[i] - below;
+        if (step > 0) {
+            const double parts = std::ceil(step / widest(below, values[i]) - 1e-9);
             for (double part = 1; part < parts; ++part) {
                 all.push_back(below + step * (part / parts));
             }
         }
-        all.push_back(halved[i]);
+        all.push_back(values[i]);
     }
     return all;
 }
 
-/// Adds amplitudes with another verdict between two neighbours with the same verdict.
+/// These strengths, with steps that are wider than `widest`, over their upper strength, divided:
+/// first at halves of the upper strength, then evenly. Below `lifting`, nothing moves.
+std::vector<double> divided_strengths(const std::vector<double>& strengths, double widest,
+                                      double lifting)
+{
+    std::vector<double> halved;
+    for (const double strength : strengths) {
+        const double below = halved.empty() ? strength : halved.back();
+        std::vector<double> between;
+        for (double half = strength / 2; half > std::max(below, lifting); half /= 2) {
+            between.push_back(half);
+        }
+        halved.insert(halved.end(), between.rbegin(), between.rend());
+        halved.push_back(strength);
+    }
+    return divided(halved, [&](double below, double above) {
+        // Of even steps, the lowest is the widest over its upper strength.
+        return above > lifting ? widest / (1 - widest) * std::max(below, lifting)
+                               : std::numeric_limits<double>::infinity();
+    });
+}
+
+/// The strength from which on the vertical motion cancels gravity; infinite if there is none.
+double free_fall_strength(const Scene& scene, const BoundaryLine& line)
+{
+    return free_fall_amplitude(scene, line.point) * std::abs(line.unit);
+}
+
+/// The strengths below that at which the vertical motion cancels gravity; all others are undecided.
+std::vector<double> without_free_fall(Line& line, const Scene& scene, const BoundaryLine& where,
+                                      std::vector<double> strengths)
+{
+    const double free_fall = free_fall_strength(scene, where);
+    const auto first = std::lower_bound(strengths.begin(), strengths.end(), free_fall);
+    if (first != strengths.end()) {
+        line.add_undecided(*first);
+        line.add_undecided(strengths.back());
+        strengths.erase(first, strengths.end());
+        const double last = last_before_free_fall(scene, where);
+        if (!strengths.empty() && strengths.back() < last) {
+            strengths.push_back(last);
+        }
+    }
+    return strengths;
+}
+
+/// Adds values with another verdict between two neighbours with the same verdict.
 void add_hidden_verdicts(Line& line, std::vector<Probe>& probes)
 {
     line.renew_effort();
@@ -452,8 +476,9 @@ void add_hidden_verdicts(Line& line, std::vector<Probe>& probes)
         if (is_flip(now, next)) {
             continue;
         }
-        const bool changes_side = line.has_safe_strips() && is_unsafe(now.region) &&
-                                  falls_to_plus(now.region) != falls_to_plus(next.region);
+        const bool changes_side = is_unsafe(now.region) &&
+                                  falls_to_plus(now.region) != falls_to_plus(next.region) &&
+                                  line.has_safe_strip(now, next);
         const bool has_minimum = !changes_side && i > 0 && !is_flip(probes[i - 1], now) &&
                                  may_reach_zero(probes[i - 1], now, next);
         if ((changes_side || has_minimum) && line.is_exhausted()) {
@@ -470,14 +495,14 @@ void add_hidden_verdicts(Line& line, std::vector<Probe>& probes)
     add(found, probes);
 }
 
-/// Adds the shares of the interval between the first and the last of these ascending amplitudes.
+/// Adds the shares of the interval between the first and the last of these ascending values.
 void add_shares(const std::vector<Probe>& probes, Boundary& boundary)
 {
-    const double interval = probes.back().amplitude - probes.front().amplitude;
+    const double interval = probes.back().value - probes.front().value;
     for (std::size_t i = 1; i < probes.size(); ++i) {
         const Probe& below = probes[i - 1];
         const Probe& above = probes[i];
-        const double share = (above.amplitude - below.amplitude) / interval;
+        const double share = (above.value - below.value) / interval;
         if (!is_decided(below.region) || !is_decided(above.region)) {
             boundary.undecided_share += share;
         } else { // the flip is taken to be halfway between them
@@ -487,30 +512,18 @@ void add_shares(const std::vector<Probe>& probes, Boundary& boundary)
     }
 }
 
-} // namespace
-
-double last_before_free_fall(const Scene& scene, const BoundaryLine& line)
+/// scan: the values that are computed first.
+Boundary searched(Line& line, const Scene& scene, const std::vector<double>& scan)
 {
-    return free_fall_strength(scene, line) * (1 - 4 * std::numeric_limits<double>::epsilon());
-}
-
-Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
-                     const std::vector<double>& amplitudes, Kernel kernel,
-                     const std::optional<FlipSearch>& search)
-{
-    Line line(scene, where, kernel,
-              search.value_or(flip_search(scene, std::isfinite(where.point.friction))));
     const std::size_t most_flips = line.search.most_flips;
-    std::vector<Probe> probes;
     const bool is_sensitive = scene.motion_traits().is_sensitive;
+    std::vector<Probe> probes = line.at(scan, scanning);
     if (is_sensitive) {
         // A margin says nothing about the verdicts next to it: the block has often come to rest
         // long before the end.
-        const std::vector<double> scanned = line.without_free_fall(amplitudes);
-        probes = line.at(divided(scanned, line.search.finest_step, line.lifting()), scanning);
         forget_the_useless(probes, std::numeric_limits<std::size_t>::max());
     } else {
-        probes = refined(line, line.at(divided(amplitudes, widest_step, line.lifting()), scanning));
+        probes = refined(line, std::move(probes));
         add_hidden_verdicts(line, probes);
     }
     std::vector<Bracket> brackets;
@@ -521,8 +534,8 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
     }
     add(ends_of_narrowed(line, brackets), probes);
     add(line.undecided, probes);
-    // Of undecided amplitudes that were settled later, the settled ones remain.
-    const auto repeated = std::ranges::unique(probes, {}, &Probe::amplitude);
+    // Of undecided values that were settled later, the settled ones remain.
+    const auto repeated = std::ranges::unique(probes, {}, &Probe::value);
     probes.erase(repeated.begin(), repeated.end());
 
     Boundary boundary;
@@ -540,13 +553,80 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
         }
         boundary.has_more = boundary.flips.size() == most_flips;
         if (!boundary.has_more) {
-            // An undecided range extends to the settled amplitudes on both sides.
-            boundary.flips.push_back({is_decided(below.region) ? below.amplitude : above.amplitude,
-                                      is_decided(above.region) ? above.amplitude : below.amplitude,
+            // An undecided range extends to the settled values on both sides.
+            boundary.flips.push_back({is_decided(below.region) ? below.value : above.value,
+                                      is_decided(above.region) ? above.value : below.value,
                                       below.region, above.region});
         }
     }
     return boundary;
+}
+
+} // namespace
+
+std::vector<Point> QuantityLine::points(const Scene& scene, const std::vector<double>& values) const
+{
+    Grid grid = others;
+    grid.dimensions = {{std::string(quantity->name), {{quantity, Axis(AxisList(values))}}}};
+    return Coordinates(scene, grid).points();
+}
+
+QuantityLine line_along(const Quantity& quantity, const Grid& grid, const Shape& place)
+{
+    QuantityLine line{&quantity, {.numbers = grid.numbers, .dimensions = {}}};
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        for (const Column& column : grid.dimensions[i].columns) {
+            line.others.numbers.push_back(
+                {column.quantity, Axis(AxisList{column.values[place[i]]})});
+        }
+    }
+    std::erase_if(line.others.numbers, [&](const Column& number) {
+        return are_equivalent(number.quantity->name, quantity.name);
+    });
+    return line;
+}
+
+double last_before_free_fall(const Scene& scene, const BoundaryLine& line)
+{
+    return free_fall_strength(scene, line) * (1 - 4 * std::numeric_limits<double>::epsilon());
+}
+
+Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
+                     const std::vector<double>& strengths, Kernel kernel,
+                     const std::optional<FlipSearch>& search)
+{
+    Point unit = where.point;
+    unit.amplitude = std::copysign(1.0, where.unit);
+    const double lifting =
+        lifting_pga(scene, unit) / pga_of_unit(scene, unit) * std::abs(where.unit);
+    const auto points = [&](const std::vector<double>& values) {
+        return mapped(values, [&](double strength) {
+            Point point = where.point;
+            point.amplitude = strength / where.unit;
+            return point;
+        });
+    };
+    Line line(scene, {.at = points, .scale = [](double strength) { return strength; }}, kernel,
+              search.value_or(flip_search(scene, may_slip(where.point))));
+    const std::vector<double> scan =
+        scene.motion_traits().is_sensitive
+            ? divided_strengths(without_free_fall(line, scene, where, strengths),
+                                line.search.finest_step, lifting)
+            : divided_strengths(strengths, widest_step, lifting);
+    return searched(line, scene, scan);
+}
+
+Boundary boundary_on(const Scene& scene, const QuantityLine& where,
+                     const std::vector<double>& values, Kernel kernel,
+                     const std::optional<FlipSearch>& search)
+{
+    const double range = values.back() - values.front();
+    const auto points = [&](const std::vector<double>& at) { return where.points(scene, at); };
+    Line line(scene, {.at = points, .scale = [range](double) { return range; }}, kernel,
+              search.value_or(flip_search(scene, may_slip(points({values.front()}).front()))));
+    const double widest = range * (scene.motion_traits().is_sensitive ? line.search.finest_step
+                                                                      : widest_step_of_range);
+    return searched(line, scene, divided(values, [&](double, double) { return widest; }));
 }
 
 } // namespace overturn

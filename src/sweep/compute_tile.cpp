@@ -92,8 +92,8 @@ TileFields fields_of(const Boundaries&, const Problem& problem, const Tile& tile
     below.front() = std::uint8_t(boundary.region_at_first);
     for (std::size_t i = 0; i < boundary.flips.size(); ++i) {
         const Flip& flip = boundary.flips[i];
-        amplitude[i] = is_pga ? flip.amplitude() / unit : flip.amplitude();
-        pga[i] = is_pga ? flip.amplitude() : flip.amplitude() * unit;
+        amplitude[i] = is_pga ? flip.value() / unit : flip.value();
+        pga[i] = is_pga ? flip.value() : flip.value() * unit;
         below[i] = std::uint8_t(flip.region_below);
         above[i] = std::uint8_t(flip.region_above);
     }

@@ -41,7 +41,7 @@ std::vector<double> friction_to_topple(const Scene& scene, const BoundaryLine& l
         return range.first + std::min(1e-6 * range.first, (range.last - range.first) / 2);
     });
     std::vector<double> accelerations =
-        scanned_accelerations(scene, ranges.lifting, ranges.end_of_search());
+        scanned_accelerations(scene, ranges.begin_of_search, ranges.end_of_search());
     std::erase_if(accelerations, [&](double each) { return each > ends.back(); });
     accelerations.insert(accelerations.end(), ends.begin(), ends.end());
     std::ranges::sort(accelerations);
@@ -199,8 +199,10 @@ std::vector<double> directions_of(const Problem& problem)
     if (const Column* given = problem.grid.find("direction")) {
         return {given->values.first()};
     }
-    return only_point_of(problem).block.is_symmetric() ? std::vector<double>{0}
-                                                       : std::vector<double>{0, 180};
+    const std::vector<Point> points = Coordinates(problem.scene, problem.grid).points();
+    const auto is_symmetric = [](const Point& point) { return point.block.is_symmetric(); };
+    return std::ranges::all_of(points, is_symmetric) ? std::vector<double>{0}
+                                                     : std::vector<double>{0, 180};
 }
 
 Verdict verdict_of_peak(double peak)
@@ -256,6 +258,14 @@ ToppleAnswer answer_of(const Problem& problem, const ToppleQuestion& question)
     answer.friction_to_topple = friction_to_topple(scene, line_of(point, answer.unit),
                                                    answer.requested().ranges, question.threads);
     return answer;
+}
+
+VerdictRanges ranges_along(const Problem& problem, const Quantity& quantity, double first,
+                           double last, const DropRequested& drop_requested)
+{
+    const Grid& grid = problem.grid;
+    return verdict_ranges(problem.scene, line_along(quantity, grid, Shape(grid.dimensions.size())),
+                          first, last, drop_requested);
 }
 
 bool is_worse(const ToppleAnswer& one, const ToppleAnswer& other)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace overturn {
 
@@ -12,7 +13,7 @@ namespace {
 
 /// Bounds the time of an answer if a slow pulse has hundreds of flips. A line of usual pulses needs
 /// a thousand amplitudes, none of them in 50 digits, in which one may take a second.
-constexpr std::size_t most_amplitudes = 2500;
+constexpr std::size_t most_points = 2500;
 constexpr int most_in_50_digits = 4;
 
 FlipSearch search_in(const Scene& scene, bool may_slip, const DropRequested& drop_requested)
@@ -20,11 +21,9 @@ FlipSearch search_in(const Scene& scene, bool may_slip, const DropRequested& dro
     FlipSearch search = flip_search(scene, may_slip);
     search.drop_requested = drop_requested;
     if (scene.motion_traits().is_sensitive) {
-        // Above every step of the scan, which is therefore not divided.
-        search.finest_step = 2 * toppling_step;
         search.most_in_50_digits = 0;
     } else {
-        search.most_amplitudes = most_amplitudes;
+        search.most_points = most_points;
         search.most_in_50_digits = most_in_50_digits;
     }
     return search;
@@ -49,6 +48,37 @@ std::vector<double> with_neighbours(std::vector<double> scan, double included, c
     const auto [begin, end] = std::ranges::unique(scan);
     scan.erase(begin, end);
     return scan;
+}
+
+/// Adds the ranges of a boundary from `first` to `last` to those below `first`, if there are any.
+void add_ranges(const Boundary& boundary, double first, double last,
+                std::vector<VerdictRange>& ranges)
+{
+    const auto end_last_range_at = [&](double end) {
+        ranges.back().last = end;
+        // A single safe value does not separate undecided ones.
+        if (ranges.size() > 1 && ranges.back().first == end &&
+            ranges.back().verdict == Verdict::safe) {
+            ranges.pop_back();
+            ranges.back().last = end;
+        }
+    };
+    const auto continue_with = [&](Region region, double from) {
+        const Verdict verdict = verdict_of(region);
+        if (ranges.empty()) {
+            ranges.push_back({from, from, verdict});
+            return;
+        }
+        end_last_range_at(from);
+        if (ranges.back().verdict != verdict) {
+            ranges.push_back({from, from, verdict});
+        }
+    };
+    continue_with(boundary.region_at_first, first);
+    for (const Flip& flip : boundary.flips) { // a flip has a width: safe ranges end before it
+        continue_with(flip.region_above, is_safe(flip.region_below) ? flip.below : flip.above);
+    }
+    end_last_range_at(last);
 }
 
 } // namespace
@@ -90,7 +120,7 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
                              double end, double included, const DropRequested& drop_requested)
 {
     VerdictRanges ranges;
-    ranges.lifting = lifting;
+    ranges.begin_of_search = lifting;
     const double computable = last_before_free_fall(scene, line);
     ranges.ends_in_free_fall = computable < end;
     end = std::min(end, computable);
@@ -99,31 +129,59 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
         return ranges;
     }
     const std::vector<double> accelerations = scanned_accelerations(scene, lifting, end, included);
-    const Boundary boundary =
-        boundary_on(scene, line, accelerations, widest_kernel(),
-                    search_in(scene, std::isfinite(line.point.friction), drop_requested));
+    FlipSearch search = search_in(scene, std::isfinite(line.point.friction), drop_requested);
+    if (scene.motion_traits().is_sensitive) {
+        search.finest_step = 2 * toppling_step; // above every step: the scan is not divided
+    }
+    const Boundary boundary = boundary_on(scene, line, accelerations, widest_kernel(), search);
     ranges.coarse = boundary.coarse;
     ranges.all.push_back({0, lifting, Verdict::safe});
-    const auto end_last_range_at = [&](double last) {
-        ranges.all.back().last = last;
-        // A single safe acceleration does not separate undecided ones.
-        if (ranges.all.back().first == last && ranges.all.back().verdict == Verdict::safe) {
-            ranges.all.pop_back();
-            ranges.all.back().last = last;
-        }
-    };
-    const auto continue_with = [&](Region region, double from) {
-        end_last_range_at(from);
-        if (const Verdict verdict = verdict_of(region); ranges.all.back().verdict != verdict) {
-            ranges.all.push_back({from, from, verdict});
-        }
-    };
-    continue_with(boundary.region_at_first, lifting);
-    for (const Flip& flip : boundary.flips) { // a flip has a width: safe ranges end before it
-        continue_with(flip.region_above, is_safe(flip.region_below) ? flip.below : flip.above);
-    }
-    end_last_range_at(end);
+    add_ranges(boundary, lifting, end, ranges.all);
     return ranges;
+}
+
+VerdictRanges verdict_ranges(const Scene& scene, const QuantityLine& line, double first,
+                             double last, const DropRequested& drop_requested)
+{
+    const bool may_slip = std::isfinite(line.points(scene, {first}).front().friction);
+    const Boundary boundary = boundary_on(scene, line, {first, last}, widest_kernel(),
+                                          search_in(scene, may_slip, drop_requested));
+    VerdictRanges ranges{.all = {}, .begin_of_search = first, .coarse = boundary.coarse};
+    add_ranges(boundary, first, last, ranges.all);
+    return ranges;
+}
+
+VerdictRanges worst_of(const std::vector<VerdictRanges>& each)
+{
+    VerdictRanges worst{.all = {}, .begin_of_search = each.front().begin_of_search};
+    std::vector<double> ends{worst.begin_of_search};
+    for (const VerdictRanges& ranges : each) {
+        for (const VerdictRange& range : ranges.all) {
+            ends.push_back(range.last);
+        }
+        if (const auto& coarse = ranges.coarse) {
+            const CoarseSearch& so_far = worst.coarse.value_or(*coarse);
+            worst.coarse = {std::min(so_far.first, coarse->first),
+                            std::max(so_far.last, coarse->last),
+                            std::max(so_far.step, coarse->step)};
+        }
+    }
+    std::ranges::sort(ends);
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+        if (ends[i] == ends[i - 1]) {
+            continue;
+        }
+        Verdict verdict = Verdict::safe;
+        for (const VerdictRanges& ranges : each) {
+            const Verdict its = ranges.verdict_at(std::midpoint(ends[i - 1], ends[i]));
+            verdict = verdict == Verdict::topples || its == Verdict::safe ? verdict : its;
+        }
+        if (worst.all.empty() || worst.all.back().verdict != verdict) {
+            worst.all.push_back({ends[i - 1], ends[i], verdict});
+        }
+        worst.all.back().last = ends[i];
+    }
+    return worst;
 }
 
 std::vector<VerdictRange> VerdictRanges::with(Verdict verdict) const
@@ -139,14 +197,14 @@ double VerdictRanges::undecided_share() const
     for (const VerdictRange& range : with(Verdict::undecided)) {
         undecided += range.last - range.first;
     }
-    return undecided > 0 ? undecided / (end_of_search() - lifting) : 0;
+    return undecided > 0 ? undecided / (end_of_search() - begin_of_search) : 0;
 }
 
-Verdict VerdictRanges::verdict_at(double pga) const
+Verdict VerdictRanges::verdict_at(double value) const
 {
     for (const Verdict verdict : {Verdict::topples, Verdict::undecided}) {
         const bool has_it = std::ranges::any_of(with(verdict), [&](const VerdictRange& range) {
-            return range.first <= pga && pga <= range.last;
+            return range.first <= value && value <= range.last;
         });
         if (has_it) {
             return verdict;
@@ -155,25 +213,35 @@ Verdict VerdictRanges::verdict_at(double pga) const
     return Verdict::safe;
 }
 
-std::optional<double> VerdictRanges::nearest_below(Verdict verdict, double pga) const
+std::optional<double> VerdictRanges::nearest_below(Verdict verdict, double value) const
 {
     std::optional<double> nearest;
     for (const VerdictRange& range : with(verdict)) {
-        if (range.first < pga) {
-            nearest = std::min(range.last, pga);
+        if (range.first < value) {
+            nearest = std::min(range.last, value);
         }
     }
     return nearest;
 }
 
-std::optional<double> VerdictRanges::nearest_above(Verdict verdict, double pga) const
+std::optional<double> VerdictRanges::nearest_above(Verdict verdict, double value) const
 {
     for (const VerdictRange& range : with(verdict)) {
-        if (range.last > pga) {
-            return std::max(range.first, pga);
+        if (range.last > value) {
+            return std::max(range.first, value);
         }
     }
     return std::nullopt;
+}
+
+std::optional<double> VerdictRanges::safe_from() const
+{
+    return all.back().verdict == Verdict::safe ? std::optional(all.back().first) : std::nullopt;
+}
+
+std::optional<double> VerdictRanges::safe_up_to() const
+{
+    return all.front().verdict == Verdict::safe ? std::optional(all.front().last) : std::nullopt;
 }
 
 } // namespace overturn

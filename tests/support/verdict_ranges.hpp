@@ -17,7 +17,7 @@ inline constexpr auto undecided = Verdict::undecided;
 inline VerdictRanges random_ranges(std::mt19937_64& generator)
 {
     std::uniform_real_distribution<double> uniform(0, 1);
-    VerdictRanges ranges{.all = {{0, 0.3, safe}}, .lifting = 0.3};
+    VerdictRanges ranges{.all = {{0, 0.3, safe}}, .begin_of_search = 0.3};
     const int count = int(200 * uniform(generator));
     for (int i = 0; i < count; ++i) {
         const double first = ranges.all.back().last;
@@ -35,7 +35,7 @@ inline VerdictRanges random_ranges(std::mt19937_64& generator)
 /// Alternating with safe ones, from 0 to 5 g.
 inline VerdictRanges ranges_of(const std::vector<VerdictRange>& unsafe)
 {
-    VerdictRanges ranges{.all = {}, .lifting = 0.3};
+    VerdictRanges ranges{.all = {}, .begin_of_search = 0.3};
     double end = 0;
     for (const VerdictRange& range : unsafe) {
         ranges.all.push_back({end, range.first, safe});

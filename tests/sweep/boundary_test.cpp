@@ -37,7 +37,7 @@ void expect_flips_at(const Boundary& boundary, const std::vector<double>& amplit
     ASSERT_EQ(boundary.flips.size(), amplitudes.size());
     for (std::size_t i = 0; i < amplitudes.size(); ++i) {
         const Flip& flip = boundary.flips[i];
-        EXPECT_NEAR(flip.amplitude(), amplitudes[i], tolerance);
+        EXPECT_NEAR(flip.value(), amplitudes[i], tolerance);
         EXPECT_LE(flip.above - flip.below, default_search.flip_width * flip.above);
         EXPECT_NE(is_safe(flip.region_below), is_safe(flip.region_above));
     }
@@ -93,7 +93,7 @@ TEST(Boundary, OfTheLinearTheoryUnderAHalfSineIsThatOfMakrisAndRoussos)
             boundary_on({Pulse{PulseKind::half_sine}, Theory::linear}, line_of(0.2, 0.8, frequency),
                         evenly(0.9, 12, 40), widest_kernel());
         ASSERT_FALSE(boundary.flips.empty());
-        EXPECT_NEAR(boundary.flips[0].amplitude(), 1 / std::sin(low), 1e-11 / std::sin(low));
+        EXPECT_NEAR(boundary.flips[0].value(), 1 / std::sin(low), 1e-11 / std::sin(low));
     }
 }
 
@@ -126,7 +126,7 @@ TEST(Boundary, FindsIslandsThatAreNarrowerThanAStepOfTheScan)
     for (const double before : {1e-4, 1e-3, 1e-2}) {
         const Boundary found = boundary(with - before, 79); // steps of 1/2
         ASSERT_EQ(found.flips.size(), 3u);
-        EXPECT_LT(found.flips[1].amplitude() - found.flips[0].amplitude(), 0.5);
+        EXPECT_LT(found.flips[1].value() - found.flips[0].value(), 0.5);
     }
 }
 
@@ -142,7 +142,7 @@ void compare(const Boundary& coarse, const Boundary& fine, Comparison& compariso
 {
     const auto is_missed = [&](const Flip& flip) {
         return std::none_of(coarse.flips.begin(), coarse.flips.end(), [&](const Flip& other) {
-            return std::abs(flip.amplitude() - other.amplitude()) <
+            return std::abs(flip.value() - other.value()) <
                    2 * default_search.flip_width * flip.above;
         });
     };
@@ -154,9 +154,9 @@ void compare(const Boundary& coarse, const Boundary& fine, Comparison& compariso
         ++missed;
         // A strip is missed with both its ends.
         if (i + 1 < fine.flips.size() && is_missed(fine.flips[i + 1]) && missed % 2 == 1) {
-            const double width = fine.flips[i + 1].amplitude() - fine.flips[i].amplitude();
+            const double width = fine.flips[i + 1].value() - fine.flips[i].value();
             comparison.widest_missed =
-                std::max(comparison.widest_missed, width / fine.flips[i].amplitude());
+                std::max(comparison.widest_missed, width / fine.flips[i].value());
         }
     }
     comparison.flips += fine.flips.size();
@@ -224,7 +224,7 @@ TEST(Boundary, StopsAtTheRequestedNumberOfFlips)
     ASSERT_EQ(five.flips.size(), 5u);
     for (std::size_t i = 0; i < 5; ++i) {
         // Brackets may differ, but not the flips between them.
-        EXPECT_NEAR(five.flips[i].amplitude(), all.flips[i].amplitude(),
+        EXPECT_NEAR(five.flips[i].value(), all.flips[i].value(),
                     2 * default_search.flip_width * all.flips[i].above);
     }
     limited.most_flips = all.flips.size();
@@ -282,7 +282,7 @@ TEST(Boundary, IsUndecidedUpToTheFirstAndFromTheLastAmplitudeThatCanBeSettled)
     ASSERT_GE(below.flips.size(), 1u);
     EXPECT_EQ(below.flips[0].region_below, Region::undecided);
     // The step is divided in seven: an eighth of the upper amplitude is a seventh of the lower one.
-    EXPECT_DOUBLE_EQ(below.flips[0].amplitude(), 1.000001 + (2 - 1.000001) / 7);
+    EXPECT_DOUBLE_EQ(below.flips[0].value(), 1.000001 + (2 - 1.000001) / 7);
     expect_whole_and_true(below, line);
     const Boundary above = boundary_on({}, line, {0.9, 1.000001}, widest_kernel());
     EXPECT_EQ(above.region_at_first, Region::S);
@@ -314,7 +314,7 @@ Region region_in(const Boundary& boundary, double amplitude)
 {
     Region region = boundary.region_at_first;
     for (const Flip& flip : boundary.flips) {
-        region = flip.amplitude() < amplitude ? flip.region_above : region;
+        region = flip.value() < amplitude ? flip.region_above : region;
     }
     return region;
 }
@@ -333,8 +333,8 @@ TEST(Boundary, UnderARecordHasTheStatedStepsHoweverFewTheAmplitudes)
         const Boundary few =
             boundary_on(scene, line, {many.front(), many.back()}, widest_kernel(), search);
         for (std::size_t k = 1; k < reference.flips.size(); ++k) {
-            const double first = reference.flips[k - 1].amplitude();
-            const double last = reference.flips[k].amplitude();
+            const double first = reference.flips[k - 1].value();
+            const double last = reference.flips[k].value();
             if (last - first < 2 * search.finest_step * last) {
                 continue; // may be missed by either
             }
@@ -441,7 +441,7 @@ TEST(Boundary, OfLimitedEffortTellsWhereFlipsMayBeMissed)
     for (int i = 0; i < 4; ++i) {
         const BoundaryLine line = line_of(0.25, 0.9, uniform(generator));
         FlipSearch limited = default_search;
-        limited.most_amplitudes = 60;
+        limited.most_points = 60;
         const Boundary all = boundary_on({}, line, scan, widest_kernel());
         const Boundary some = boundary_on({}, line, scan, widest_kernel(), limited);
         EXPECT_FALSE(all.coarse);
@@ -453,12 +453,12 @@ TEST(Boundary, OfLimitedEffortTellsWhereFlipsMayBeMissed)
         EXPECT_LE(some.coarse->step, 2.0 / 20);
         for (const Flip& flip : all.flips) {
             const auto is_same = [&](const Flip& other) {
-                return std::abs(other.amplitude() - flip.amplitude()) < 1e-9;
+                return std::abs(other.value() - flip.value()) < 1e-9;
             };
             const bool found = std::any_of(some.flips.begin(), some.flips.end(), is_same);
-            EXPECT_TRUE(found || (some.coarse->first <= flip.amplitude() &&
-                                  flip.amplitude() <= some.coarse->last))
-                << flip.amplitude();
+            EXPECT_TRUE(found ||
+                        (some.coarse->first <= flip.value() && flip.value() <= some.coarse->last))
+                << flip.value();
         }
     }
     EXPECT_GT(lines_with_missed_flips, 0);
@@ -470,7 +470,7 @@ TEST(Boundary, WithoutFiftyDigitsIsUndecidedWhereTheyAreNeeded)
     const Scene scene{.motion = Pulse{PulseKind::sine, {.cycles = 3}}};
     const BoundaryLine line = line_of(0.165, 1.0, 7.37);
     FlipSearch limited = default_search;
-    limited.most_amplitudes = 100;
+    limited.most_points = 100;
     limited.most_in_50_digits = 0;
     const Boundary boundary =
         boundary_on(scene, line, evenly(1.0001, 1.0008, 3), widest_kernel(), limited);
@@ -504,7 +504,7 @@ TEST(BoundaryTile, HasTheFlipsOfALine)
         const auto& above = std::get<std::vector<std::uint8_t>>(fields.values[2]);
         for (std::size_t row = 0; row < 8; ++row) {
             if (column == 2 && row < 3) {
-                EXPECT_EQ(amplitude[row], boundary.flips[row].amplitude());
+                EXPECT_EQ(amplitude[row], boundary.flips[row].value());
                 EXPECT_EQ(Region(below[row]), boundary.flips[row].region_below);
                 EXPECT_EQ(Region(above[row]), boundary.flips[row].region_above);
             } else {

@@ -39,7 +39,7 @@ void expect_flips(const Boundary& boundary, const std::vector<std::pair<double, 
 {
     ASSERT_EQ(boundary.flips.size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
-        EXPECT_NEAR(boundary.flips[i].amplitude(), expected[i].first, tolerance);
+        EXPECT_NEAR(boundary.flips[i].value(), expected[i].first, tolerance);
         EXPECT_EQ(boundary.flips[i].region_above, expected[i].second);
     }
 }

@@ -72,11 +72,17 @@ std::vector<double> accurate_values(Problem problem, Field field);
 Verdict verdict_of_peak(double peak);
 
 /// The directions of the motion that are computed [degree]: the given one. Without it the motion as
-/// it stands and, of a block whose sides differ, its mirror image, because either may be worse.
+/// it stands and, if the sides of a block differ, its mirror image, because either may be worse.
 std::vector<double> directions_of(const Problem& problem);
 
 /// The motion must not be 0 in this direction.
 ToppleAnswer answer_of(const Problem& problem, const ToppleQuestion& question);
+
+/// The ranges of a quantity of the block, or of its loss at impacts, between two values, in which
+/// the block of the first point of a problem topples under the motion of this point. The value of
+/// the quantity there, if there is one, is not used; all values between the two must be allowed.
+VerdictRanges ranges_along(const Problem& problem, const Quantity& quantity, double first,
+                           double last, const DropRequested& drop_requested = nullptr);
 
 /// Whether the answer for one direction of a motion is worse than that for another one: the block
 /// topples, or may topple; or it topples closer to the asked strength; without one, at less.

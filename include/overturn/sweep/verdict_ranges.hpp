@@ -1,4 +1,5 @@
-// The ranges of peak ground acceleration in which a block is safe, topples, or is undecided.
+// The ranges of peak ground acceleration, or of another quantity, in which a block is safe,
+// topples, or is undecided.
 #pragma once
 
 #include "overturn/sweep/boundary.hpp"
@@ -17,16 +18,16 @@ enum class Verdict { safe, topples, undecided };
 Verdict verdict_of(Region region);
 
 struct VerdictRange {
-    double first; ///< peak ground acceleration over g
+    double first; ///< peak ground acceleration over g, or value of another quantity
     double last;
     Verdict verdict;
 };
 
 struct VerdictRanges {
-    /// From 0 to the end of the search, ascending and without gaps. The first one is safe: the
-    /// block is not lifted. Empty without a search.
+    /// To the end of the search, ascending and without gaps; empty without a search. Those of an
+    /// acceleration begin at 0, and the first one is safe: the block is not lifted.
     std::vector<VerdictRange> all{};
-    double lifting = 0;                   ///< the acceleration that lifts the block, over g
+    double begin_of_search = 0;           ///< of an acceleration: that which lifts the block
     std::optional<CoarseSearch> coarse{}; ///< what was searched in wide steps, if anything was
     bool ends_in_free_fall = false; ///< beyond the search, the vertical motion cancels gravity
 
@@ -35,17 +36,21 @@ struct VerdictRanges {
 
     std::vector<VerdictRange> with(Verdict verdict) const;
 
-    /// The share of the search above the acceleration that lifts the block in which verdicts could
-    /// not be settled [1].
+    /// The share of the search in which verdicts could not be settled [1].
     double undecided_share() const;
 
-    /// Of two ranges that meet at `pga`, the verdict of the worse one.
-    Verdict verdict_at(double pga) const;
+    /// Of two ranges that meet at the value, the verdict of the worse one.
+    Verdict verdict_at(double value) const;
 
-    /// The largest acceleration up to `pga` in the ranges of this verdict that begin below it, and
-    /// the smallest one from `pga` on in those that end above it; nullopt if the search has none.
-    std::optional<double> nearest_below(Verdict verdict, double pga) const;
-    std::optional<double> nearest_above(Verdict verdict, double pga) const;
+    /// The largest value up to this one in the ranges of this verdict that begin below it, and the
+    /// smallest one from this one on in those that end above it; nullopt if the search has none.
+    std::optional<double> nearest_below(Verdict verdict, double value) const;
+    std::optional<double> nearest_above(Verdict verdict, double value) const;
+
+    /// The least value from which on, and the largest one up to which, all verdicts are safe;
+    /// nullopt if that at the end, or at the beginning, is not.
+    std::optional<double> safe_from() const;
+    std::optional<double> safe_up_to() const;
 };
 
 /// The accelerations over g, ascending, at which the verdicts between `first` and `last` are
@@ -60,5 +65,13 @@ std::vector<double> scanned_accelerations(const Scene& scene, double first, doub
 /// boundary_on().
 VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, double lifting,
                              double end, double included, const DropRequested& drop_requested);
+
+/// Along another quantity, between two values. The steps are those of boundary_on().
+VerdictRanges verdict_ranges(const Scene& scene, const QuantityLine& line, double first,
+                             double last, const DropRequested& drop_requested);
+
+/// The worst verdict at each value of ranges of one quantity that were searched from the same first
+/// to the same last value.
+VerdictRanges worst_of(const std::vector<VerdictRanges>& each);
 
 } // namespace overturn
