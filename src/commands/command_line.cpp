@@ -145,12 +145,31 @@ void add_history_arguments(CLI::App& command, HistoryOptions& options)
               "samples; events are added");
 }
 
-/// An option for each quantity that describes a block in metres or radians, or its contact.
+/// The value of a quantity. option: as the user spells it.
+double allowed_value(const Quantity& quantity, const std::string& option, const std::string& given)
+{
+    double value = 0;
+    if (!CLI::detail::lexical_cast(given, value)) {
+        throw CLI::ValidationError(fmt::format("{}: {} is not a number.", option, given));
+    }
+    if (!quantity.allows(value)) {
+        throw CLI::ValidationError(std::string(quantity.name) + quantity.refusal_of(value));
+    }
+    return value;
+}
+
+/// Whether the quantity describes a block in metres or radians, or its contact.
+bool has_option_of_block(const Quantity& quantity)
+{
+    const bool is_ratio = quantity.units == "1" && quantity.scope.shapes != 0;
+    return quantity.role == Role::block && !is_ratio && quantity.units != "s-1";
+}
+
+/// An option for each quantity of a block.
 void add_block(CLI::App& command, std::map<std::string, double>& block)
 {
     for (const Quantity& quantity : all_quantities()) {
-        const bool is_ratio = quantity.units == "1" && quantity.scope.shapes != 0;
-        if (quantity.role != Role::block || is_ratio || quantity.units == "s-1") {
+        if (!has_option_of_block(quantity)) {
             continue;
         }
         const std::string name(quantity.name);
@@ -162,21 +181,45 @@ void add_block(CLI::App& command, std::map<std::string, double>& block)
             .add_option_function<std::string>(
                 option,
                 [&block, &quantity, name, option](const std::string& given) {
-                    double value = 0;
-                    if (!CLI::detail::lexical_cast(given, value)) {
-                        throw CLI::ValidationError(
-                            fmt::format("{}: {} is not a number.", option, given));
-                    }
-                    if (!quantity.allows(value)) {
-                        throw CLI::ValidationError(name + quantity.refusal_of(value));
-                    }
-                    block[name] = value;
+                    block[name] = allowed_value(quantity, option, given);
                 },
                 fmt::format("{} [{}]", text, quantity.units))
             ->type_name(quantity.units == "m"   ? "M"
                         : quantity.units == "1" ? "NUMBER"
                                                 : "RAD");
     }
+}
+
+/// Of a quantity of the block, or of its loss at impacts; words: its name, and two values.
+VariedQuantity varied_quantity(std::vector<std::string> words)
+{
+    std::ranges::replace(words[0], '-', '_');
+    std::vector<std::string_view> names;
+    for (const Quantity& quantity : all_quantities()) {
+        if (has_option_of_block(quantity) || quantity.role == Role::loss) {
+            names.push_back(quantity.name);
+        }
+    }
+    const auto name = std::ranges::find(names, words[0]);
+    if (name == names.end()) {
+        const std::string_view nearest = nearest_name(words[0], names);
+        throw CLI::ValidationError(
+            nearest.empty()
+                ? fmt::format("--vary: \"{}\" is not one of {}.", words[0], fmt::join(names, ", "))
+                : fmt::format("--vary: there is no quantity \"{}\". Did you mean "
+                              "\"{}\"?",
+                              words[0], nearest));
+    }
+    const Quantity& varied = quantity(*name);
+    const double first = allowed_value(varied, "--vary", words[1]);
+    const double last = allowed_value(varied, "--vary", words[2]);
+    if (!(first < last)) {
+        throw CLI::ValidationError(fmt::format(
+            "--vary: the first {}, {}, is not below the last one, {}. Give an ascending "
+            "range.",
+            varied.name, first, last));
+    }
+    return {&varied, first, last};
 }
 
 constexpr double largest_pga = 1000; // steps of a search beyond it are too long, or too many
@@ -224,6 +267,17 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
     command.add_flag("--json", options.json, "Print JSON for programs");
     add_text(command, "-o,--history", options.history, "OUT.h5",
              "Write the motion at --pga or --scale, as overturn history does");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--vary",
+            [&options](const std::vector<std::string>& words) {
+                options.vary = varied_quantity(words);
+            },
+            "At --pga or --scale, find the values of a quantity of the block, such as width, or\n"
+            "restitution_of_maximum, between FIRST and LAST at which it topples")
+        ->expected(3)
+        ->type_name("QUANTITY FIRST LAST")
+        ->excludes("--pga-max", "--history");
 }
 
 void add_assess_arguments(CLI::App& command, AssessOptions& options)

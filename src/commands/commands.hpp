@@ -1,6 +1,8 @@
 // The subcommands, one file each. They return an exit code, and throw an exception on error.
 #pragma once
 
+#include "overturn/problem/quantity.hpp"
+
 #include <map>
 #include <optional>
 #include <string>
@@ -47,6 +49,13 @@ struct HistoryOptions {
 };
 int history(const HistoryOptions& options);
 
+/// A quantity whose values between two ends are searched, instead of those of the strength.
+struct VariedQuantity {
+    const Quantity* quantity;
+    double first;
+    double last;
+};
+
 /// Answers whether one block topples under one motion, and at which peak accelerations.
 struct ToppleOptions {
     std::map<std::string, double> block; ///< quantities of the block, by name
@@ -63,6 +72,7 @@ struct ToppleOptions {
     std::vector<std::string> overrides;           ///< of keys of [scene]
     double pga_max = 5;                           ///< the largest acceleration searched, over g [1]
     bool without_search = false;                  ///< only the verdict at the asked strength
+    std::optional<VariedQuantity> vary;
     bool json = false;
     std::string history; ///< path of a file of the motion; empty: none
 };

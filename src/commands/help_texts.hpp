@@ -46,6 +46,7 @@ overturns is stored as well.)";
 inline constexpr const char* topple = R"(Examples:
   overturn topple --width 0.6 --height 1.8 --period 0.5 --pga 0.4
   overturn topple --width 0.6 --height 1.8 --record jobs/synthetic.AT2 --scale 1.5 --history tilt.h5
+  overturn topple --height 1.8 --period 0.5 --pga 0.95 --vary width 0.3 1.2
 
 Prints whether a rigid block topples and the nearest strengths that topple it, its peak tilt, the
 peak ground acceleration (PGA) that lifts it, and the ranges of the PGA in which it topples or the
@@ -58,7 +59,12 @@ vertical motion cancels gravity. g is 9.81 m/s2, unless --set scene.gravity=... 
 that are probably in another unit cause a warning. If a record is the motion of a floor
 (--set scene.motion_of=floor, unless its file states this), all accelerations are those of the
 floor, from its peak floor acceleration (PFA). The exit code is 0 whatever the verdict. Spectra and
-suites of records need a job file: see overturn run.)";
+suites of records need a job file: see overturn run.
+
+--vary QUANTITY FIRST LAST searches, instead of the accelerations, the values of a quantity of the
+block, or of its restitution, at the strength given by --pga or --scale: it prints the values at
+which the block topples or the verdict is undecided, and from which value on, or up to which one,
+nothing in the range topples. Of two directions, the worse one counts at each value.)";
 
 inline constexpr const char* assess = R"(Examples:
   overturn assess objects.csv --period 0.5 --pga 0.4

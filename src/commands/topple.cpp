@@ -1,5 +1,6 @@
-// Whether one block topples under one motion, and at which peak accelerations. The job is made from
-// the command line; everything is computed as by `run`, `boundary` and `history`.
+// Whether one block topples under one motion, and at which peak accelerations, or at which values
+// of another quantity. The job is made from the command line; everything is computed as by `run`,
+// `boundary` and `history`.
 #include "commands.hpp"
 #include "motion_options.hpp"
 #include "point_history.hpp"
@@ -9,19 +10,27 @@
 #include "report/print.hpp"
 #include "report/progress.hpp"
 #include "report/topple_answer.hpp"
+#include "report/topple_ranges.hpp"
+#include "report/varied_answer.hpp"
 
 #include "overturn/file/history_and_accuracy_files.hpp"
+#include "overturn/problem/axis.hpp"
 #include "overturn/sweep/in_threads.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace overturn {
 
 namespace {
 
-/// The text of a job with a single point. If the command line gives no strength, its motion is 0.
+/// The values of a varied quantity in its job, which show whether those between are allowed.
+constexpr int values_in_job = 17;
+
+/// The text of a job with a single point, or with values of a varied quantity. If the command line
+/// gives no strength, its motion is 0.
 std::string job_text(const ToppleOptions& options)
 {
     const bool is_recorded = !options.record.empty();
@@ -36,11 +45,20 @@ std::string job_text(const ToppleOptions& options)
     if (!is_recorded) {
         text += fmt::format("pulse_period = {}\n", *options.period);
     }
-    text += options.restitution ? fmt::format("restitution = {}\n", *options.restitution)
-            : options.velocity_restitution
-                ? fmt::format("velocity_restitution = {}\n", *options.velocity_restitution)
-                : fmt::format("restitution_of_maximum = {}\n",
-                              options.restitution_of_maximum.value_or(1));
+    if (options.restitution) {
+        text += fmt::format("restitution = {}\n", *options.restitution);
+    } else if (options.velocity_restitution) {
+        text += fmt::format("velocity_restitution = {}\n", *options.velocity_restitution);
+    } else if (options.restitution_of_maximum ||
+               !(options.vary && options.vary->quantity->role == Role::loss)) {
+        text += fmt::format("restitution_of_maximum = {}\n",
+                            options.restitution_of_maximum.value_or(1));
+    }
+    if (options.vary) {
+        const auto& [quantity, first, last] = *options.vary;
+        text += fmt::format("{} = {{ first = {}, last = {}, count = {} }}\n", quantity->name, first,
+                            last, first < last ? values_in_job : 1);
+    }
     if (options.direction) {
         text += fmt::format("direction = {}\n", *options.direction);
     }
@@ -54,7 +72,7 @@ std::string job_text(const ToppleOptions& options)
 /// What the parser of the command line does not check.
 void expect_consistent(const ToppleOptions& options)
 {
-    const auto refuse_if = [](bool wrong, const char* message) {
+    const auto refuse_if = [](bool wrong, const std::string& message) {
         if (wrong) {
             throw Error(exit_code::usage, message);
         }
@@ -67,13 +85,70 @@ void expect_consistent(const ToppleOptions& options)
               "--no-search leaves the verdict at one acceleration. Give --pga or --scale.");
     refuse_if(!options.history.empty() && !options.pga && !options.scale,
               "--history is that of one acceleration. Give --pga or --scale.");
+    if (options.vary) {
+        const std::string name(options.vary->quantity->name);
+        refuse_if(!options.pga && !options.scale,
+                  "--vary searches at one acceleration. Give --pga or --scale.");
+        refuse_if(
+            options.block.contains(name) || (name == "restitution" && options.restitution) ||
+                (name == "velocity_restitution" && options.velocity_restitution) ||
+                (name == "restitution_of_maximum" && options.restitution_of_maximum),
+            fmt::format("--vary {0} cannot be combined with a value of {0}. Remove one.", name));
+    }
+}
+
+Job job_of(const ToppleOptions& options)
+{
+    return read_job_text(job_text(options), command_line, options.overrides);
+}
+
+/// A sentence on the values of the varied quantity that describe a block, if some do.
+std::string possible_values(const ToppleOptions& options)
+{
+    const auto& [quantity, first, last] = *options.vary;
+    const auto is_possible = [&](double value) {
+        ToppleOptions at = options;
+        at.vary->first = at.vary->last = value;
+        try {
+            job_of(at);
+            return true;
+        } catch (const Error&) {
+            return false;
+        }
+    };
+    const std::vector<double> values = Axis(AxisRange{first, last, values_in_job}).values();
+    const auto begin = std::ranges::find_if(values, is_possible);
+    if (begin == values.end()) {
+        return "";
+    }
+    // The last possible value on the way from a possible to an impossible one.
+    const auto end_between = [&](double possible, double impossible) {
+        constexpr int halvings = 12;
+        for (int i = 0; i < halvings; ++i) {
+            const double middle = std::midpoint(possible, impossible);
+            (is_possible(middle) ? possible : impossible) = middle;
+        }
+        return possible;
+    };
+    const auto end = std::find_if_not(begin, values.end(), is_possible);
+    constexpr int decimals = 4;
+    const double least =
+        begin == values.begin() ? first : rounded_up(end_between(*begin, *(begin - 1)), decimals);
+    const double largest =
+        end == values.end() ? last : rounded_down(end_between(*(end - 1), *end), decimals);
+    return fmt::format(" Possible are values from {} to {}.", least, largest);
 }
 
 /// The job of each direction that is computed.
 std::vector<Job> jobs_of(ToppleOptions options)
 {
     const auto job = [&] {
-        return read_job_text(job_text(options), command_line, options.overrides);
+        try {
+            return job_of(options);
+        } catch (const Error& error) {
+            throw Error(error.code(),
+                        error.what() + (options.vary ? possible_values(options) : ""));
+        }
     };
     std::vector<Job> jobs{job()};
     const std::vector<double> directions = directions_of(jobs.front().problem);
@@ -130,6 +205,23 @@ std::vector<DirectedAnswer> answers_for(std::vector<Job> jobs, const ToppleOptio
     return all;
 }
 
+int topple_varied(const std::vector<Job>& jobs, const ToppleOptions& options)
+{
+    std::vector<DirectedRanges> all;
+    for (const Job& job : jobs) {
+        expect_motion(job.problem);
+        const auto& [quantity, first, last] = *options.vary;
+        all.push_back({job, directions_of(job.problem).front(),
+                       ranges_along(job.problem, *quantity, first, last)});
+    }
+    if (options.json) {
+        fmt::print("{}", json_of(all, options));
+    } else {
+        print_varied(all, options);
+    }
+    return exit_code::complete;
+}
+
 } // namespace
 
 int topple(const ToppleOptions& options)
@@ -146,6 +238,9 @@ int topple(const ToppleOptions& options)
     }
     if (!options.json) {
         print_warnings(warnings_on(job));
+    }
+    if (options.vary) {
+        return topple_varied(jobs, options);
     }
     std::optional<OutputLock> output_lock;
     if (!options.history.empty()) {

@@ -33,6 +33,18 @@ TEST(VerdictRanges, NameEveryKindAndTheEndOfTheSearch)
               "none, searched up to 0.25 g");
 }
 
+TEST(VerdictRanges, OfAnotherQuantityHaveItsUnitAndMayReachBothEnds)
+{
+    const auto text = [](const std::vector<VerdictRange>& all) {
+        return text_of(VerdictRanges{.all = all}, 2, 3, " m");
+    };
+    EXPECT_EQ(text({{-0.1, 0.1, topples}}), "all, searched from -0.1 up to 0.1 m");
+    EXPECT_EQ(text({{-0.1, 0, topples}, {0, 0.05, safe}, {0.05, 0.1, topples}}),
+              "below 0.00 m, above 0.05 m, searched from -0.1 up to 0.1 m");
+    EXPECT_EQ(text({{0.3, 0.4, undecided}, {0.4, 1.2, safe}}),
+              "none; undecided: below 0.40 m, searched from 0.3 up to 1.2 m");
+}
+
 TEST(VerdictRanges, TellWhatWasSearchedInWideSteps)
 {
     VerdictRanges ranges{.all = {{0, 5, safe}}};

@@ -96,6 +96,12 @@ class AnAnswer(InAFolder):
         answer = overturn.topple(width=0.6, height=1.8, period=0.5, pga=0.9, search=False)
         self.assertEqual((answer["verdict"], answer["toppling_pga"]), ("does not topple at 0.9 g", None))
 
+    def test_has_the_values_of_a_quantity_at_which_the_block_topples(self):
+        answer = overturn.topple(height=1.8, period=0.5, pga=0.95, vary=("width", np.float64(0.3), 1.2))
+        self.assertAlmostEqual(answer["safe_from"], 0.61404, places=4)
+        self.assertEqual(answer["topples"], [[0.3, answer["safe_from"]]])
+        self.assert_fails(2, 'Did you mean "width"?', overturn.topple, height=1.8, period=0.5, pga=0.9, vary=("widht", 0.3, 1))
+
     def test_under_a_record_and_other_gravity(self):
         answer = overturn.topple(width=0.6, height=1.8, record=JOBS / "synthetic.AT2", scale=1, pga_max=0.5,
                                  overrides={"scene.gravity": 1.62})

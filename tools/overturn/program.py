@@ -87,19 +87,21 @@ def topple(*, direction: float | None = None, pulse: str | None = None, period: 
            record: str | os.PathLike[str] | None = None, component: str | int | None = None, pga: float | None = None,
            scale: float | None = None, restitution: float | None = None, velocity_restitution: float | None = None,
            restitution_of_maximum: float | None = None, pga_max: float | None = None, search: bool = True,
-           history: str | os.PathLike[str] | None = None, overrides: Mapping[str, Any] | None = None,
-           **block: float) -> dict[str, Any]:
+           vary: tuple[str, float, float] | None = None, history: str | os.PathLike[str] | None = None,
+           overrides: Mapping[str, Any] | None = None, **block: float) -> dict[str, Any]:
     """Returns the answer of `overturn topple`: whether one block topples, and at which peak accelerations.
 
     block: width and height [m], incline [rad] and so on; with all other arguments, the options of the command.
     record: the path of a recorded motion. evaluate() takes accelerations.
     search: if false, only the verdict at `pga` or `scale`, in a fraction of the time; what needs the search is None.
+    vary: a quantity of the block, such as "width", or "restitution_of_maximum", and its first and last value. The answer
+        is then at which values between these the block topples at `pga` or `scale`.
     history: path of a file, to which the motion at `pga` or `scale` is written.
     overrides: keys of [scene] and their new values, such as {"scene.gravity": 1.62}.
 
     The members of the answer are those of `overturn topple --json`. Of a block with two different sides, both
     directions are computed unless one is given: `by_direction` has the answers for both, and the other members are
-    those of the worse one.
+    those of the worse one; with `vary`, the worse of both at each value.
 
     Warns of values that are probably in another unit. Raises ProgramError if the program fails.
     """
@@ -110,6 +112,9 @@ def topple(*, direction: float | None = None, pulse: str | None = None, period: 
     _expect_file_names("" if record is None else record, "scene.record")
     options = [f"--{name.replace('_', '-')}={_option_text(value)}" for name, value in given.items()
                if value is not None] + ["--no-search"] * (not search)
+    if vary is not None:
+        name, first, last = vary
+        options += ["--vary", name, _option_text(first), _option_text(last)]
     answer = json.loads(_output_of([overturn_path(), "topple", "--json", *options, *_set_arguments(overrides)]))
     for text in answer["warnings"]:
         warnings.warn(f"{text}.", stacklevel=2)

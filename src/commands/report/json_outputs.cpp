@@ -33,13 +33,22 @@ Json if_named(const std::string& name)
     return name.empty() ? Json() : Json(name);
 }
 
-/// The ranges of a verdict. Toppling may go on at the end of the search, where null stands.
-Json ranges_with(const VerdictRanges& ranges, Verdict verdict)
+/// The ranges of a verdict, from the first to the last value.
+Json all_ranges_with(const VerdictRanges& ranges, Verdict verdict)
 {
     Json list = Json::array();
     for (const VerdictRange& range : ranges.with(verdict)) {
-        const bool may_go_on = verdict == Verdict::topples && range.last == ranges.end_of_search();
-        list.push_back({range.first, may_go_on ? Json() : Json(range.last)});
+        list.push_back({range.first, range.last});
+    }
+    return list;
+}
+
+/// The same of accelerations. Toppling may go on at the end of the search, where null stands.
+Json ranges_with(const VerdictRanges& ranges, Verdict verdict)
+{
+    Json list = all_ranges_with(ranges, verdict);
+    if (verdict == Verdict::topples && ranges.all.back().verdict == verdict) {
+        list.back()[1] = Json();
     }
     return list;
 }
@@ -56,6 +65,16 @@ Json toppling_intervals(const VerdictRanges& ranges)
         list.push_back(std::move(interval));
     }
     return list;
+}
+
+void add_coarse(Json& members, const VerdictRanges& ranges)
+{
+    Json& coarse = members["coarse_search"];
+    if (ranges.coarse) {
+        coarse["first"] = ranges.coarse->first;
+        coarse["last"] = ranges.coarse->last;
+        coarse["step"] = ranges.coarse->step;
+    }
 }
 
 /// Adds the answer for a restitution. pga: the asked acceleration, if any.
@@ -82,12 +101,23 @@ void add(Json& members, const RestitutionAnswer& answer, const std::optional<dou
     members["toppling_intervals"] = toppling_intervals(ranges);
     members["undecided_share"] = ranges.undecided_share();
     members["end_of_search"] = ranges.end_of_search();
-    Json& coarse = members["coarse_search"];
-    if (ranges.coarse) {
-        coarse["first"] = ranges.coarse->first;
-        coarse["last"] = ranges.coarse->last;
-        coarse["step"] = ranges.coarse->step;
+    add_coarse(members, ranges);
+}
+
+/// Adds the ranges of a varied quantity.
+void add(Json& members, const VerdictRanges& ranges)
+{
+    members["topples"] = all_ranges_with(ranges, Verdict::topples);
+    members["safe"] = all_ranges_with(ranges, Verdict::safe);
+    members["undecided"] = all_ranges_with(ranges, Verdict::undecided);
+    Json& changes = members["changes"] = Json::array();
+    for (std::size_t i = 1; i < ranges.all.size(); ++i) {
+        changes.push_back(ranges.all[i].first);
     }
+    members["safe_from"] = if_known(ranges.safe_from());
+    members["safe_up_to"] = if_known(ranges.safe_up_to());
+    members["undecided_share"] = ranges.undecided_share();
+    add_coarse(members, ranges);
 }
 
 /// Adds what depends on the direction. verdict: the sentence, if a strength is asked for.
@@ -158,16 +188,7 @@ Json members_of(const Job& job, const ToppleOptions& options)
     members["motion_of"] = name_of(scene.motion_of);
     members["theory"] = name_of(scene.theory);
     members["gravity"] = scene.gravity;
-    std::vector<const char*> names{"slenderness", "frequency_parameter"};
-    if (!only_slenderness_of(job.problem)) {
-        names = {"slenderness_plus", "slenderness_minus", "frequency_parameter",
-                 "frequency_parameter_minus", "incline"};
-    }
-    for (const char* name : names) {
-        members[name] = extent_of(job, name)->first;
-    }
     const bool is_searched = !options.without_search;
-    members["pga_max"] = is_searched ? Json(options.pga_max) : Json();
     members["narrower_ranges_exist"] =
         is_searched && scene.motion_traits().is_sensitive ? Json(true) : Json();
     members["warnings"] = warnings_on(job);
@@ -180,11 +201,44 @@ std::string json_of(const std::vector<DirectedAnswer>& all, const ToppleOptions&
 {
     const std::vector<std::string> verdicts = verdict_sentences(all, options);
     const auto verdict = [&](std::size_t i) { return verdicts.empty() ? nullptr : &verdicts[i]; };
-    Json members = members_of(all.front().job, options);
+    const Job& job = all.front().job;
+    Json members = members_of(job, options);
+    std::vector<const char*> names{"slenderness", "frequency_parameter"};
+    if (!only_slenderness_of(job.problem)) {
+        names = {"slenderness_plus", "slenderness_minus", "frequency_parameter",
+                 "frequency_parameter_minus", "incline"};
+    }
+    for (const char* name : names) {
+        members[name] = extent_of(job, name)->first;
+    }
+    members["pga_max"] = options.without_search ? Json() : Json(options.pga_max);
     add(members, all.front(), verdict(0));
     Json& directions = members["by_direction"];
     for (std::size_t i = 0; i < all.size(); ++i) {
         add(directions.emplace_back(), all[i], verdict(i));
+    }
+    return text_of(members);
+}
+
+std::string json_of(const std::vector<DirectedRanges>& all, const ToppleOptions& options)
+{
+    const auto& [quantity, first, last] = *options.vary;
+    const VerdictRanges worst = worst_of(all);
+    Json members = members_of(all.front().job, options);
+    members["pga"] = if_known(options.pga);
+    members["scale"] = if_known(options.scale);
+    members["vary"] = quantity->name;
+    members["units"] = quantity->units;
+    members["first"] = first;
+    members["last"] = last;
+    members["step"] = step_of_search(all.front().job.problem.scene, *options.vary);
+    members["verdict"] = sentence_of(worst, options);
+    add(members, worst);
+    Json& directions = members["by_direction"];
+    for (const DirectedRanges& each : all) {
+        Json& direction = directions.emplace_back();
+        direction["direction"] = each.direction;
+        add(direction, each.ranges);
     }
     return text_of(members);
 }

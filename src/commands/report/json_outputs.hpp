@@ -2,6 +2,7 @@
 #pragma once
 
 #include "topple_answer.hpp"
+#include "varied_answer.hpp"
 
 #include "overturn/farm/farm.hpp"
 #include "overturn/sweep/kernel.hpp"
@@ -14,6 +15,9 @@ namespace overturn {
 
 /// The answer of `overturn topple` for the worst direction, and the answers for all.
 std::string json_of(const std::vector<DirectedAnswer>& all, const ToppleOptions& options);
+
+/// The answer of `overturn topple --vary`: the worst verdicts of all directions, and those of each.
+std::string json_of(const std::vector<DirectedRanges>& all, const ToppleOptions& options);
 
 /// The sidecar of a result file: what varies from run to run. hosts: of the ranks. seconds: of the
 /// run. Begins with `sidecar_beginning`.

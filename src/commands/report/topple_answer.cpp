@@ -81,13 +81,16 @@ std::string motion_text(const Job& job, const ToppleOptions& options)
 
 /// Dimensions that the command line gives, such as "0.55 m x 2.1 m, height of the centre of mass 1
 /// m, ".
-std::string dimensions_text(const std::map<std::string, double>& given)
+std::string dimensions_text(std::map<std::string, double> given)
 {
     std::string text;
     if (given.contains("width") && given.contains("height")) {
         text = fmt::format("{} m x {} m, ", given.at("width"), given.at("height"));
+        given.erase("width");
+        given.erase("height");
     }
-    for (const char* name : {"center_height", "center_offset", "radius_of_gyration"}) {
+    for (const char* name :
+         {"width", "height", "center_height", "center_offset", "radius_of_gyration"}) {
         if (given.contains(name)) {
             text += fmt::format("{} {} m, ", quantity(name).long_name, given.at(name));
         }
@@ -97,23 +100,7 @@ std::string dimensions_text(const std::map<std::string, double>& given)
 
 void print_question(const std::vector<DirectedAnswer>& all, const ToppleOptions& options)
 {
-    const Job& job = all.front().job;
-    const Scene& scene = job.problem.scene;
-    print_row("block", dimensions_text(options.block) + block_line(job));
-    std::string direction;
-    if (all.size() > 1) {
-        direction = "; directions 0 and 180 degrees, its mirror image";
-    } else if (options.direction) {
-        direction = fmt::format("; direction {} degrees", *options.direction);
-    }
-    if (scene.has_two_components()) {
-        direction += fmt::format(", {:.3g} g", all.front().answer.unit);
-    }
-    print_row("motion", motion_text(job, options) + direction);
-    print_motion_of("", scene.motion_of);
-    if (scene.theory != Scene().theory) {
-        print_row("theory", name_of(scene.theory));
-    }
+    print_block_and_motion(all.front().job, options, all.size());
     const RestitutionAnswer& requested = all.front().answer.requested();
     print_row(
         "restitution",
@@ -155,6 +142,26 @@ void print_ranges(const Scene& scene, const ToppleAnswer& answer)
 }
 
 } // namespace
+
+void print_block_and_motion(const Job& job, const ToppleOptions& options, std::size_t directions)
+{
+    const Scene& scene = job.problem.scene;
+    print_row("block", dimensions_text(options.block) + block_line(job));
+    std::string direction;
+    if (directions > 1) {
+        direction = "; directions 0 and 180 degrees, its mirror image";
+    } else if (options.direction) {
+        direction = fmt::format("; direction {} degrees", *options.direction);
+    }
+    if (scene.has_two_components()) {
+        direction += fmt::format(", {:.3g} g", pga_of_unit(scene, only_point_of(job.problem)));
+    }
+    print_row("motion", motion_text(job, options) + direction);
+    print_motion_of("", scene.motion_of);
+    if (scene.theory != Scene().theory) {
+        print_row("theory", name_of(scene.theory));
+    }
+}
 
 std::vector<std::string> verdict_sentences(const std::vector<DirectedAnswer>& all,
                                            const ToppleOptions& options)

@@ -20,6 +20,9 @@ struct DirectedAnswer {
     ToppleAnswer answer;
 };
 
+/// The rows on the block and its motion. directions: how many of these are computed.
+void print_block_and_motion(const Job& job, const ToppleOptions& options, std::size_t directions);
+
 /// The sentences of the verdict for every direction; none if no strength is asked for.
 std::vector<std::string> verdict_sentences(const std::vector<DirectedAnswer>& all,
                                            const ToppleOptions& options);

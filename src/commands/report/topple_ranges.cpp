@@ -44,31 +44,30 @@ std::vector<VerdictInterval> rounded(const std::vector<VerdictInterval>& interva
     return all;
 }
 
-/// "above 2.1300 g" if the interval reaches the end of the search, otherwise "1.1110 to 1.6440 g";
-/// "34 % of 1.1110 to 1.6440 g" if only a part of it has the verdict.
-std::string text_of(const VerdictInterval& interval, int decimals, double end_of_search)
+/// "above 2.1300 g" if the interval reaches the end of the ranges, "below 0.4000 m" if it reaches
+/// their beginning, and "all" if it reaches both; otherwise "1.1110 to 1.6440 g", or "34 %
+/// of 1.1110 to 1.6440 g" if only a part of it has the verdict.
+std::string text_of(const VerdictInterval& interval, const std::vector<VerdictRange>& ranges,
+                    int decimals, std::string_view unit)
 {
     constexpr double whole = 0.995; // rounded to per cent
     const auto& [first, last, share] = interval;
     const bool is_whole = share >= whole;
-    if (is_whole && last >= end_of_search) {
-        return fmt::format("above {:.{}f} g", first, decimals);
+    const bool is_at_end = is_whole && last >= ranges.back().last;
+    const bool is_at_begin = is_whole && first <= ranges.front().first;
+    if (is_at_end && is_at_begin) {
+        return "all";
+    }
+    if (is_at_end || is_at_begin) {
+        return fmt::format("{} {:.{}f}{}", is_at_end ? "above" : "below", is_at_end ? first : last,
+                           decimals, unit);
     }
     if (first == last) {
-        return fmt::format("{:.{}f} g", first, decimals);
+        return fmt::format("{:.{}f}{}", first, decimals, unit);
     }
-    return fmt::format("{}{:.{}f} to {:.{}f} g",
+    return fmt::format("{}{:.{}f} to {:.{}f}{}",
                        is_whole ? "" : fmt::format("{:.0f} % of ", std::max(100 * share, 1.0)),
-                       first, decimals, last, decimals);
-}
-
-std::string list_of(const std::vector<VerdictInterval>& intervals, int decimals,
-                    double end_of_search)
-{
-    const auto texts = mapped(rounded(intervals, decimals), [&](const VerdictInterval& each) {
-        return text_of(each, decimals, end_of_search);
-    });
-    return fmt::format("{}", fmt::join(texts, ", "));
+                       first, decimals, last, decimals, unit);
 }
 
 /// In the order of the enumerators of Verdict.
@@ -225,24 +224,31 @@ std::vector<VerdictInterval> intervals_of(const VerdictRanges& ranges, Verdict v
     return shown;
 }
 
-std::string text_of(const VerdictRanges& ranges, int decimals, std::size_t most)
+std::string text_of(const VerdictRanges& ranges, int decimals, std::size_t most,
+                    std::string_view unit)
 {
-    const double end = ranges.end_of_search();
-    std::string text = list_of(intervals_of(ranges, Verdict::topples, most), decimals, end);
-    const std::string undecided =
-        list_of(intervals_of(ranges, Verdict::undecided, most), decimals, end);
+    const auto list_of = [&](Verdict verdict) {
+        const auto texts = mapped(
+            rounded(intervals_of(ranges, verdict, most), decimals),
+            [&](const VerdictInterval& each) { return text_of(each, ranges.all, decimals, unit); });
+        return fmt::format("{}", fmt::join(texts, ", "));
+    };
+    std::string text = list_of(Verdict::topples);
+    const std::string undecided = list_of(Verdict::undecided);
     text = text.empty() ? "none" : text;
     text += undecided.empty() ? "" : "; undecided: " + undecided;
-    text += fmt::format(", searched up to {} g", rounded_down(end, 6));
+    const double first = ranges.all.front().first;
+    text += fmt::format(", searched {}up to {}{}", first == 0 ? "" : fmt::format("from {} ", first),
+                        rounded_down(ranges.end_of_search(), 6), unit);
     if (const auto& coarse = ranges.coarse) {
-        text += fmt::format(", from {:.{}f} to {:.{}f} g only in steps of up to {:.2g} %",
+        text += fmt::format(", from {:.{}f} to {:.{}f}{} only in steps of up to {:.2g} %",
                             rounded_down(coarse->first, decimals), decimals,
-                            rounded_up(coarse->last, decimals), decimals, 100 * coarse->step);
+                            rounded_up(coarse->last, decimals), decimals, unit, 100 * coarse->step);
     }
     return text;
 }
 
-int decimals_of(const VerdictRanges& ranges, double pga)
+int decimals_of(const VerdictRanges& ranges, double value)
 {
     constexpr int most_for_ends = 7; // narrow ranges would need more
     std::vector<double> ends;
@@ -257,7 +263,7 @@ int decimals_of(const VerdictRanges& ranges, double pga)
         return a != b && rounded_down(a, decimals) == rounded_down(b, decimals);
     };
     const auto are_unclear = [&] {
-        return std::ranges::any_of(ends, [&](double end) { return look_the_same(end, pga); }) ||
+        return std::ranges::any_of(ends, [&](double end) { return look_the_same(end, value); }) ||
                (decimals < most_for_ends &&
                 std::ranges::adjacent_find(ends, look_the_same) != ends.end());
     };

@@ -1,5 +1,5 @@
-// Verdicts and the ranges of the peak ground acceleration in which a block topples, in words.
-// Ranges are rounded outwards: what is in none of them is safe.
+// Verdicts and the ranges of the peak ground acceleration, or of another quantity, in which a block
+// topples, in words. Ranges are rounded outwards: what is in none of them is safe.
 #pragma once
 
 #include "overturn/sweep/toppling.hpp"
@@ -21,7 +21,7 @@ inline double rounded_up(double value, int decimals)
 
 /// Ranges of a verdict that are shown as one interval.
 struct VerdictInterval {
-    double first; ///< peak ground acceleration over g
+    double first; ///< peak ground acceleration over g, or value of another quantity
     double last;
     double share = 1; ///< of the interval that has the verdict [1]
 };
@@ -34,12 +34,14 @@ std::vector<VerdictInterval> intervals_of(const VerdictRanges& ranges, Verdict v
                                           std::size_t most = most_intervals);
 
 /// Such as "1.1110 to 1.6440 g, 34 % of 1.7000 to 1.8000 g, above 2.1300 g, searched up to 5 g"; at
-/// most `most` intervals of each kind. Those that touch when rounded are joined.
-std::string text_of(const VerdictRanges& ranges, int decimals, std::size_t most = most_intervals);
+/// most `most` intervals of each kind. Those that touch when rounded are joined. unit: follows a
+/// value.
+std::string text_of(const VerdictRanges& ranges, int decimals, std::size_t most = most_intervals,
+                    std::string_view unit = " g");
 
-/// The number of decimals that tells all ends of the shown intervals from the acceleration `pga`;
-/// at least 4, and up to 7 to tell them from each other.
-int decimals_of(const VerdictRanges& ranges, double pga);
+/// The number of decimals that tells all ends of the shown intervals from a value; at least 4, and
+/// up to 7 to tell them from each other.
+int decimals_of(const VerdictRanges& ranges, double value);
 
 /// Such as "does not topple at 0.95 g; topples at 0.9889 g (4.1 % more)", because a verdict alone
 /// hides a near miss. Of the other restitutions, the worst one is named if it is worse than the
