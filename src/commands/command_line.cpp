@@ -369,7 +369,8 @@ Parser::Parser()
     app.set_version_flag("--version", version_text);
     add("run", "Compute or resume a spectrum, with or without mpirun", help::run, run,
         add_run_arguments);
-    add("boundary", "Find the amplitudes at which verdicts flip, with or without mpirun",
+    add("boundary",
+        "Find the strengths or other values at which verdicts flip, with or without mpirun",
         help::boundary, run, add_boundary_arguments);
     add("check", "Validate a job; print its points, bytes and time; write nothing", help::check,
         check, add_job_arguments);

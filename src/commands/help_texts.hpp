@@ -37,7 +37,8 @@ The amplitudes of the job are computed first; where they indicate more flips bet
 are halved. Very narrow safe or unsafe strips may be missed. Each flip lies between two settled
 verdicts whose amplitudes differ by at most 1e-12 of their size (under a record, 1e-4), regardless of
 [numerics]. If a block already overturns at the first amplitude, overturn info reports it. The same
-command resumes an unfinished run.
+command resumes an unfinished run. With boundary.along = "width", the values of this quantity at
+which the verdict flips are found instead of the amplitudes.
 
 Under a record there is no complete list: the steps are divided evenly until each is at most 0.1 %
 of the amplitude, and narrower strips exist. The share of the scanned interval in which the block

@@ -42,8 +42,8 @@ public:
         for (const Column& column : grid_.numbers) {
             add_column(column, {});
         }
-        if (job_.problem.product.scans_strengths()) {
-            add_scan(grid_.dimensions[*grid_.dimension_of(Role::strength)]);
+        if (const Boundaries* boundaries = job_.problem.product.boundaries()) {
+            add_scan(grid_.dimensions[boundaries->dimension(grid_)]);
         }
         if (job_.blocks) {
             add_table(job_.blocks->table);
@@ -127,12 +127,13 @@ private:
         }
     }
 
-    void add_scan(const Dimension& strength)
+    void add_scan(const Dimension& scanned)
     {
-        const std::string name = layout::in_run_group("scan_" + strength.name);
-        add(name, {{name, strength.size()}},
-            fmt::format("values of {} computed first", strength.name), "1",
-            [&strength] { return strength.columns.front().values.values(); });
+        const Column& column = scanned.columns.front();
+        const std::string name = layout::in_run_group("scan_" + scanned.name);
+        add(name, {{name, scanned.size()}},
+            fmt::format("values of {} computed first", scanned.name), column.quantity->units,
+            [&column] { return column.values.values(); });
     }
 
     void add_table(const Table& table)
@@ -150,7 +151,7 @@ private:
         }
     }
 
-    /// A boundary has flips instead of strengths, and nothing that follows from these.
+    /// A boundary has flips instead of what is scanned, and nothing that follows from this.
     void add_derived(const Quantity& quantity)
     {
         const std::string_view name = quantity.name;

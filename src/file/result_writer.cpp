@@ -79,11 +79,33 @@ void write_flags(hid_t dataset, Field field)
     }
 }
 
+/// What is known of a field in a result: of a boundary along another quantity than the strength,
+/// the unit of this, and texts that do not mention strengths.
+FieldTraits traits_in(const Problem& problem, Field field)
+{
+    FieldTraits traits = traits_of(field);
+    const Boundaries* boundaries = problem.product.boundaries();
+    if (boundaries == nullptr || boundaries->along == nullptr) {
+        return traits;
+    }
+    if (field == Field::flip_value) {
+        traits.units = boundaries->along->units;
+    } else if (field == Field::region_below) {
+        traits.comment = "if there is no flip, the first entry along `crossing` has the region at "
+                         "the first value of the scan";
+    } else if (field == Field::unsafe_share) {
+        traits.long_name = "share of values that overturn";
+    } else if (field == Field::undecided_share) {
+        traits.long_name = "share of values without verdict";
+    }
+    return traits;
+}
+
 void write_field_attributes(hid_t dataset, Field field, const Problem& problem,
                             const std::string& coordinates)
 {
     const Scene& scene = problem.scene;
-    const FieldTraits& traits = traits_of(field);
+    const FieldTraits traits = traits_in(problem, field);
     write_attribute(dataset, "long_name", scene.worded(traits.long_name));
     write_attribute(dataset, "units", traits.units);
     // Readers interpret NaN as missing, so it can be declared; a fill value declared on an integer
@@ -91,7 +113,7 @@ void write_field_attributes(hid_t dataset, Field field, const Problem& problem,
     if (traits.type == FieldType::float64) {
         write_attribute(dataset, "_FillValue", std::numeric_limits<double>::quiet_NaN());
     }
-    if (field == Field::flip_amplitude) {
+    if (field == Field::flip_amplitude || field == Field::flip_value) {
         const FlipSearch search = flip_search(scene, problem.grid.may_slip());
         write_attribute(dataset, "width", search.flip_width);
         write_attribute(dataset, "finest_step", search.finest_step);

@@ -17,7 +17,8 @@ namespace overturn {
 /// The place of the dimension `crossing` of a boundary; any place otherwise.
 inline std::size_t place_of_crossing(const Problem& problem)
 {
-    return problem.grid.dimension_of(Role::strength).value_or(0);
+    const Boundaries* boundaries = problem.product.boundaries();
+    return boundaries != nullptr ? boundaries->dimension(problem.grid) : 0;
 }
 
 /// The entries of a list, one per dimension of the points, for the dimensions of a field: a field

@@ -100,6 +100,10 @@ std::string resolved_text(const Job& job)
     std::string text =
         fmt::format("title = {}\n\n{}{}{}", in_quotes(job.title), scene_text(job),
                     job.blocks ? blocks_text(*job.blocks) : "", plane_text(problem.grid));
+    if (const Boundaries* boundaries = problem.product.boundaries();
+        boundaries != nullptr && boundaries->along != nullptr) {
+        text += fmt::format("\n[boundary]\nalong = {}\n", in_quotes(boundaries->along->name));
+    }
     if (problem.product.has_settings()) { // a boundary ignores both
         std::vector<Field> fields = problem.fields;
         std::erase(fields, Field::evaluated);

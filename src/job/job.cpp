@@ -95,6 +95,18 @@ Product read_product(const Entry& job)
     return Spectrum();
 }
 
+/// Reads the quantity of [boundary]; nullptr: the strength.
+const Quantity* read_along(const Entry& job)
+{
+    const auto entry = find(table_of(job, "boundary"), "along");
+    if (!entry) {
+        return nullptr;
+    }
+    const std::vector<std::string_view> names = scanned_quantities();
+    const Quantity& along = quantity(names[index_of_name(*entry, names)]);
+    return along.role == Role::strength ? nullptr : &along;
+}
+
 /// Reads [output].
 std::vector<Field> read_fields(const Entry& job)
 {
@@ -184,7 +196,7 @@ std::string excess_of(const Problem& problem)
                ? ""
                : fmt::format(" has {:.4g} {} and would take {:.4g} bytes, but at most {:.4g} are "
                              "allowed. Lower the counts.",
-                             problem.product.scans_strengths()
+                             problem.product.boundaries() != nullptr
                                  ? values / double(problem.scene.motion_traits().most_flips)
                                  : values,
                              items_of(problem).name, bytes, most_bytes);
@@ -234,6 +246,7 @@ Job read_job_text(std::string text, const std::string& name,
     problem.scene.motion_of = read_motion_of(scene, job.motions);
     problem.numerics = read_numerics(entry, problem.scene.motion_traits());
     problem.product = read_product(entry);
+    job.along = read_along(entry);
     problem.fields = read_fields(entry);
     read_points(entry, folder, job);
     expect_computable(entry, problem);
@@ -262,17 +275,25 @@ Job boundary_of(Job job)
             "numerics.fill = true is for spectra; a boundary is found without filling. Use --set "
             "numerics.fill=false.");
     }
-    if (const Column& strength = *problem.grid.axis_or_number(Role::strength);
-        strength.values.size() == 1) {
+    const Boundaries boundaries{job.along};
+    const Column* scanned = job.along != nullptr ? problem.grid.find(job.along->name)
+                                                 : problem.grid.axis_or_number(Role::strength);
+    if (scanned == nullptr) {
+        throw Error(exit_code::job,
+                    "boundary.along = \"{0}\", but {0} is not among the coordinates of the job. "
+                    "Give two or more values of it.",
+                    job.along->name);
+    }
+    if (scanned->values.size() == 1) {
         throw Error(exit_code::job,
                     "plane.{} has one value, {}, but flips are found between the first and the "
                     "last. Give two or more values.",
-                    strength.quantity->name, strength.values.first());
+                    scanned->quantity->name, scanned->values.first());
     }
-    problem.product = Boundaries();
-    problem.fields = boundary_fields(problem.scene, problem.grid);
+    problem.product = boundaries;
+    problem.fields = boundary_fields(problem.scene, problem.grid, boundaries);
     job.resolved = resolved_text(job);
-    // With fewer strengths than flips, the boundary is larger than the spectrum.
+    // With fewer values than flips, the boundary is larger than the spectrum.
     if (const std::string excess = excess_of(problem); !excess.empty()) {
         throw Error(exit_code::job, "plane{}", excess);
     }

@@ -46,6 +46,7 @@ std::vector<Key> keys_with_one_value()
         {"", "blocks", always, table_type, "", "a table of blocks"},
         {"", "numerics", always, table_type, "", "how the points are integrated"},
         {"", "output", always, table_type, "", "what is stored"},
+        {"", "boundary", always, table_type, "", "what overturn boundary searches"},
         {"scene", "pulse", pulse, "string", "required without a record",
          "the ground motion", words(names_of<PulseKind>)},
         {"scene", "window", pulse, "number", number_text(PulseShape().window),
@@ -98,7 +99,10 @@ std::vector<Key> keys_with_one_value()
         {"output", "fields", always, "list",
          fmt::format("[{}]", words(mapped(default_fields, &Field::name))),
          "what is stored; other fields are not computed",
-         words(mapped(spectrum_fields(), &Field::name))}};
+         words(mapped(spectrum_fields(), &Field::name))},
+        {"boundary", "along", always, "string", "the strength",
+         "the quantity along which overturn boundary searches for flips; other commands ignore it",
+         words(scanned_quantities())}};
     // clang-format on
 }
 
@@ -154,6 +158,18 @@ std::vector<std::string_view> keys_of(std::string_view table, std::optional<Unde
     for (const Key& key : all_keys()) {
         if (key.table == table && (!motion || key.motion == *motion)) {
             names.push_back(key.name);
+        }
+    }
+    return names;
+}
+
+std::vector<std::string_view> scanned_quantities()
+{
+    std::vector<std::string_view> names;
+    for (const Quantity& quantity : all_quantities()) {
+        if (quantity.role == Role::strength || quantity.role == Role::block ||
+            quantity.role == Role::loss) {
+            names.push_back(quantity.name);
         }
     }
     return names;

@@ -180,6 +180,16 @@ const FieldTraits fields[] = {
      "amplitudes do not indicate, may be missed. Under a record, the steps were divided evenly "
      "until each was at most `finest_step` of the amplitude; narrower strips exist and are missed",
      {}, {}, {}, FieldOf::flip},
+    {"flip_value", float64, "value at which the verdict flips", "1",
+     "a value of the quantity along which the boundary was scanned, in ascending order; NaN beyond "
+     "the last flip. Each flip lies between two values with settled verdicts, at most `width` of "
+     "the scanned range apart. If region_below or region_above is undecided, the value is not a "
+     "flip but the settled value next to the undecided range. Under a pulse, the steps of the scan "
+     "were halved where the margin is not linear or the number of impacts changes, down to "
+     "`finest_step` of the range; strips that are narrower, or that the neighbouring values do not "
+     "indicate, may be missed. Under a record, the steps were divided evenly until each was at "
+     "most `finest_step` of the range; narrower strips exist and are missed",
+     {}, {}, {}, FieldOf::flip},
     {"region_below", uint8, "region just below the flip", "",
      "if there is no flip, the first entry along `crossing` has the region at the first amplitude "
      "of the scan. A first flip above a safe region is the minimum overturning amplitude. If the "

@@ -22,11 +22,15 @@ Shape stored_shape(const Problem& problem)
     return mapped(stored_dimensions(problem), &StoredDimension::size);
 }
 
-std::vector<Field> boundary_fields(const Scene& scene, const Grid& grid)
+std::vector<Field> boundary_fields(const Scene& scene, const Grid& grid,
+                                   const Boundaries& boundaries)
 {
-    std::vector<Field> fields{Field::flip_amplitude, Field::region_below, Field::region_above};
+    const bool is_strength = boundaries.along == nullptr;
+    std::vector<Field> fields{is_strength ? Field::flip_amplitude : Field::flip_value,
+                              Field::region_below, Field::region_above};
     const bool is_sensitive = scene.motion_traits().is_sensitive;
-    if (is_sensitive || grid.find("pga") != nullptr || Coordinates(scene, grid).has("size")) {
+    if (is_strength &&
+        (is_sensitive || grid.find("pga") != nullptr || Coordinates(scene, grid).has("size"))) {
         fields.push_back(Field::flip_pga);
     }
     if (is_sensitive) {
@@ -102,11 +106,16 @@ Shape FilledSpectrum::tile(const Problem& problem) const
     return filled_tile_of(problem.grid);
 }
 
+std::size_t Boundaries::dimension(const Grid& grid) const
+{
+    return *(along == nullptr ? grid.dimension_of(Role::strength) : grid.dimension_of(along->name));
+}
+
 std::vector<StoredDimension> Boundaries::dimensions(const Problem& problem) const
 {
     std::vector<StoredDimension> dimensions = Spectrum().dimensions(problem);
-    dimensions[*problem.grid.dimension_of(Role::strength)] = {
-        std::string(flip_dimension), problem.scene.motion_traits().most_flips};
+    dimensions[dimension(problem.grid)] = {std::string(flip_dimension),
+                                           problem.scene.motion_traits().most_flips};
     return dimensions;
 }
 

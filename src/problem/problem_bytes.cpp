@@ -74,10 +74,14 @@ struct Archive {
     {
         std::size_t kind = product.index();
         double audit = product.audit().value_or(0);
-        transfer_all(kind, audit);
+        const Boundaries* boundaries = product.boundaries();
+        const Quantity* along = boundaries != nullptr ? boundaries->along : nullptr;
+        std::ptrdiff_t number = along != nullptr ? along - all_quantities().data() : -1;
+        transfer_all(kind, audit, number);
         if (is_input) {
-            product =
-                std::array<Product, 3>{Spectrum(), FilledSpectrum{{}, audit}, Boundaries()}[kind];
+            along = number < 0 ? nullptr : all_quantities().data() + number;
+            product = std::array<Product, 3>{Spectrum(), FilledSpectrum{{}, audit},
+                                             Boundaries{along}}[kind];
         }
     }
 

@@ -66,32 +66,38 @@ TileFields fields_of(const Spectrum&, const Problem& problem, const Tile& tile, 
     return {.values = mapped(fields, computed)};
 }
 
-TileFields fields_of(const Boundaries&, const Problem& problem, const Tile& tile, Kernel kernel,
-                     const DropRequested& drop_requested)
+TileFields fields_of(const Boundaries& boundaries, const Problem& problem, const Tile& tile,
+                     Kernel kernel, const DropRequested& drop_requested)
 {
     const auto& [scene, grid, numerics, product, fields] = problem;
-    const std::size_t along = *grid.dimension_of(Role::strength);
-    Tile beginning = tile; // at the first strength
+    const std::size_t along = boundaries.dimension(grid);
+    Tile beginning = tile; // at the first value
     beginning.begin[along] = 0;
     beginning.count[along] = 1;
     const Point point = Coordinates(scene, grid, beginning).points().front();
-    const Column& strengths = grid.dimensions[along].columns.front();
-    const bool is_pga = strengths.quantity->name == "pga";
+    const Column& scanned = grid.dimensions[along].columns.front();
+    const std::vector<double> values = scanned.values.values();
+    const bool is_pga = scanned.quantity->name == "pga";
     const double unit = pga_of_unit(scene, point);
     FlipSearch search = flip_search(scene, std::isfinite(point.friction));
     search.most_flips = std::size_t(tile.points());
     search.drop_requested = drop_requested;
     const double of_direction = std::signbit(point.amplitude) ? -1 : 1; // mirrored
+    const BoundaryLine strengths{.point = point, .unit = of_direction * (is_pga ? unit : 1)};
     const Boundary boundary =
-        boundary_on(scene, {.point = point, .unit = of_direction * (is_pga ? unit : 1)},
-                    strengths.values.values(), kernel, search);
-    std::vector<double> amplitude(search.most_flips, std::numeric_limits<double>::quiet_NaN());
-    std::vector<double> pga = amplitude;
+        boundaries.along == nullptr
+            ? boundary_on(scene, strengths, values, kernel, search)
+            : boundary_on(scene, line_along(*boundaries.along, grid, beginning.begin), values,
+                          kernel, search);
+    std::vector<double> value(search.most_flips, std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> amplitude = value;
+    std::vector<double> pga = value;
     std::vector<std::uint8_t> below(search.most_flips, no_flip);
     std::vector<std::uint8_t> above = below;
     below.front() = std::uint8_t(boundary.region_at_first);
     for (std::size_t i = 0; i < boundary.flips.size(); ++i) {
         const Flip& flip = boundary.flips[i];
+        value[i] = flip.value();
         amplitude[i] = is_pga ? flip.value() / unit : flip.value();
         pga[i] = is_pga ? flip.value() : flip.value() * unit;
         below[i] = std::uint8_t(flip.region_below);
@@ -102,6 +108,7 @@ TileFields fields_of(const Boundaries&, const Problem& problem, const Tile& tile
     }
     const std::map<std::string_view, FieldValues> computed{
         {"flip_amplitude", std::move(amplitude)},
+        {"flip_value", std::move(value)},
         {"region_below", std::move(below)},
         {"region_above", std::move(above)},
         {"flip_pga", std::move(pga)},

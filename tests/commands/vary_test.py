@@ -1,9 +1,10 @@
-"""overturn topple --vary: values of a quantity at which a block topples."""
+"""Values of a quantity at which a block topples: overturn topple --vary, and boundary.along."""
 
 import json
 import re
 import unittest
 
+import h5py
 import numpy as np
 
 from program import JOBS, Scratch
@@ -96,6 +97,73 @@ class AVariedQuantity(Scratch):
                 ((*STATUE, "--vary", "friction", "0.01", "1", "--incline", "0.1"), "Possible are values from 0.1004 to 1."),
                 ((*STATUE, "--vary", "friction", "0.1", "1", "--set", "scene.theory=linear"), "no forces of the contact")):
             self.assert_exit(self.overturn("topple", *arguments), 65, words)
+
+
+JOB = """
+scene.pulse = "one_sine"
+boundary.along = "width"
+[plane]
+pulse_period = {{ values = [0.4, 0.5, 0.8] }}
+pga = {pga}
+restitution_of_maximum = 1.0
+width = {{ first = 0.3, last = 1.2, count = {count} }}
+height = 1.8
+"""
+
+
+class ABoundaryAlongAQuantity(Scratch):
+    def computed(self, name, pga="0.95", count=2, **options):
+        (self.folder / "job.toml").write_text(JOB.format(pga=pga, count=count))
+        self.assert_exit(self.overturn("boundary", "job.toml", "-o", name, **options), 0)
+        return self.folder / name
+
+    def test_has_the_changes_that_topple_finds(self):
+        with h5py.File(self.computed("b.h5")) as file:
+            self.assertEqual(file["flip_value"].attrs["units"], b"m")
+            self.assertNotIn("flip_amplitude", file)
+            np.testing.assert_array_equal(file["run/scan_width"][:], [0.3, 1.2])
+            for column, period in enumerate(file["pulse_period"][:]):
+                answer = json.loads(self.overturn("topple", "--height", "1.8", f"--period={period!r}", "--pga", "0.95",
+                                                  "--vary", "width", "0.3", "1.2", "--json").stdout)
+                flips = file["flip_value"][:, column]
+                np.testing.assert_allclose(flips[np.isfinite(flips)], answer["changes"], rtol=0, atol=1e-11)
+                self.assertGreater(len(answer["changes"]), 0)
+                below = file["region_below"][0, column]
+                self.assertEqual(below <= 2, answer["safe_up_to"] is not None)
+        text = self.overturn("info", "b.h5").stdout
+        self.assertIn("overturning at the first value of the job: 3 of 3 lines", text)
+        self.assertIn('[boundary]\nalong = "width"\n', text)
+
+    def test_on_several_ranks_and_resumed_is_the_same_file(self):
+        several = "{ values = [0.3, 0.6, 0.9, 1.2] }"
+        one = self.computed("one.h5", several, 4)
+        self.assertEqual(one.read_bytes(), self.computed("two.h5", several, 4, ranks=3).read_bytes())
+        with h5py.File(one) as file:
+            self.assertEqual(file["flip_value"].shape, (64, 4, 3))
+            self.assertFalse(np.isfinite(file["flip_value"][:, 0, 0]).any())  # a weak and short pulse
+        with h5py.File(one, "r+") as file:
+            file["run/checksum"][3:7] = 0
+        self.computed("one.h5", several, 4)
+        self.assertEqual(one.read_bytes(), (self.folder / "two.h5").read_bytes())
+
+    def test_does_not_change_the_spectrum_nor_the_boundary_along_the_strength(self):
+        for command in ("run", "boundary"):
+            for name, words in (("with.h5", ("--set", "boundary.along=amplitude")), ("without.h5", ())):
+                self.assert_exit(self.overturn(command, "small.toml", "-o", name, *words,
+                                               "--set", "plane.frequency.count=9", "--set", "plane.amplitude.count=9"), 0)
+            with h5py.File(self.folder / "with.h5") as one, h5py.File(self.folder / "without.h5") as other:
+                self.assertEqual(one["run/job_resolved"][:].tobytes(), other["run/job_resolved"][:].tobytes())
+                self.assertEqual(one["run/checksum"][:].tobytes(), other["run/checksum"][:].tobytes())
+            for name in ("with.h5", "without.h5"):
+                (self.folder / name).unlink()
+
+    def test_needs_several_values_of_a_known_quantity(self):
+        self.computed("b.h5")
+        for along, words in (("height", "plane.height has one value, 1.8"), ("widht", 'Did you mean "width"?'),
+                             ("incline", "incline is not among the coordinates of the job"),
+                             ("pga", "plane.pga has one value, 0.95"), ("pulse_period", '"pulse_period" is unknown')):
+            self.assert_exit(self.overturn("boundary", "job.toml", "-o", "x.h5", "--set", f"boundary.along={along}"), 65, words)
+            self.assertFalse((self.folder / "x.h5").exists())
 
 
 if __name__ == "__main__":

@@ -20,11 +20,13 @@ TEST(Fields, HaveNamesOfTheirOwn)
 
 TEST(Fields, ThatAreKnownByNameHaveARow)
 {
-    for (const Field field :
-         {Field::region, Field::angle, Field::velocity, Field::margin, Field::error, Field::peak,
-          Field::fall_time, Field::friction_demand, Field::normal, Field::impacts, Field::steps,
-          Field::status, Field::region_below, Field::flip_amplitude, Field::region_above,
-          Field::flip_pga, Field::unsafe_share, Field::undecided_share, Field::evaluated}) {
+    for (const Field field : {Field::region,          Field::angle,           Field::velocity,
+                              Field::margin,          Field::error,           Field::peak,
+                              Field::fall_time,       Field::friction_demand, Field::normal,
+                              Field::impacts,         Field::steps,           Field::status,
+                              Field::region_below,    Field::flip_amplitude,  Field::flip_value,
+                              Field::region_above,    Field::flip_pga,        Field::unsafe_share,
+                              Field::undecided_share, Field::evaluated}) {
         EXPECT_NE(find_field(field.name), nullptr) << field.name;
     }
 }

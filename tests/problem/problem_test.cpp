@@ -132,6 +132,20 @@ TEST(Boundary, StoresFlipsInPlaceOfTheStrength)
     EXPECT_EQ(tiling_of(problem).size(), 40);
 }
 
+TEST(Boundary, AlongAnotherQuantityStoresFlipsInPlaceOfThis)
+{
+    Problem problem =
+        problem_of_grid({}, {axis("slenderness", {0.1, 0.2}), number("restitution", 0.9),
+                             pga_axis(100), frequency_axis(20)});
+    const Boundaries along{&quantity("slenderness")};
+    problem.product = along;
+    EXPECT_EQ(names_of_stored(problem), (std::vector<std::string>{"crossing", "pga", "frequency"}));
+    EXPECT_EQ(stored_shape(problem), (Shape{64, 100, 20}));
+    EXPECT_EQ(items_of(problem).count, 2000);
+    EXPECT_EQ(boundary_fields(problem.scene, problem.grid, along),
+              (std::vector<Field>{Field::flip_value, Field::region_below, Field::region_above}));
+}
+
 TEST(Boundary, UnderRecordsStoresMoreFlips)
 {
     Problem problem = problem_of_grid(scene_of_three_records(),

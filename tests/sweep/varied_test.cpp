@@ -1,5 +1,6 @@
 // Verdicts along quantities of the block, at one strength of the motion.
 #include "overturn/problem/coordinates.hpp"
+#include "overturn/sweep/compute_tile.hpp"
 #include "support/given_values.hpp"
 #include "support/random_record.hpp"
 #include "support/verdict_ranges.hpp"
@@ -288,6 +289,37 @@ TEST(VariedQuantity, OfTheMirroredBlockUnderTheMirroredMotionIsMirrored)
             const VerdictRange& mirrored = other.all[one.all.size() - 1 - i];
             EXPECT_EQ(one.all[i].verdict, mirrored.verdict);
             EXPECT_NEAR(one.all[i].first, -mirrored.last, 1e-12);
+        }
+    }
+}
+
+TEST(VariedQuantity, OfATileHasTheFlipsOfItsLine)
+{
+    const Grid grid = grid_of({}, {axis("width", AxisRange{0.3, 1.2, 4}), number("height", 1.8),
+                                   axis("restitution_of_maximum", {0.9, 1}),
+                                   axis("pga", {0.5, 0.9}), axis("pulse_period", {0.5, 0.8})});
+    const Boundaries along{&quantity("width")};
+    const Problem problem{.grid = grid,
+                          .product = along,
+                          .fields = {Field::flip_value, Field::region_below, Field::region_above}};
+    const Tile tile{.begin = {0, 1, 1, 1}, .count = {8, 1, 1, 1}};
+    const QuantityLine line = line_along(
+        quantity("width"),
+        grid_of({}, {number("width", 1), number("height", 1.8), number("restitution_of_maximum", 1),
+                     number("pga", 0.9), number("pulse_period", 0.8)}),
+        {});
+    const Boundary boundary =
+        boundary_on({}, line, Axis(AxisRange{0.3, 1.2, 4}).values(), widest_kernel());
+    ASSERT_GT(boundary.flips.size(), 1u);
+    const TileFields fields = compute_tile(problem, tile, widest_kernel());
+    const auto& value = std::get<std::vector<double>>(fields.values[0]);
+    const auto& below = std::get<std::vector<std::uint8_t>>(fields.values[1]);
+    for (std::size_t i = 0; i < 8; ++i) {
+        if (i < boundary.flips.size()) {
+            EXPECT_EQ(value[i], boundary.flips[i].value());
+            EXPECT_EQ(Region(below[i]), boundary.flips[i].region_below);
+        } else {
+            EXPECT_TRUE(std::isnan(value[i]));
         }
     }
 }

@@ -150,6 +150,19 @@ class TestATableOfAnotherResult(Table, InOneFolder):
                 for name in (*dataset.data_vars, "restitution"):
                     np.testing.assert_equal(float(row[name]), float(line[name]), name)
 
+    def test_of_a_boundary_along_another_quantity_has_its_values(self):
+        self.overturn("boundary", "along.h5", "boundary.along=restitution_of_maximum", "plane.frequency=3",
+                      "plane.restitution_of_maximum={values=[0.1,1]}", "plane.amplitude={values=[1.3,1.4,1.42]}",
+                      job=JOBS / "smoke.toml")
+        rows = self.rows("along.h5")
+        with h5py.File(self.folder / "along.h5") as file:
+            flips = file["flip_value"][:]
+        self.assertEqual(flips.shape, (64, 3))
+        self.assertEqual(len(rows), 1 + np.isfinite(flips).sum())
+        for row in rows:
+            np.testing.assert_equal(float(row["flip_value"]),
+                                    flips[int(row["crossing"]), [1.3, 1.4, 1.42].index(float(row["amplitude"]))])
+
     def test_of_a_history_has_its_samples_or_its_events(self):
         for name, job, settings in (("pulse", "smoke", ("plane.frequency=3", "plane.amplitude=1.5")),
                                     ("record", "synthetic", ("plane.scale=1", "plane.size=1"))):

@@ -190,6 +190,27 @@ class TestAPhysicalBoundary(Sized):
             pyplot.close("all")
 
 
+class TestABoundaryAlongAnotherQuantity(Sized):
+    ALONG = ("boundary.along=width", "block.width={values=[0.3, 0.6, 1.2]}", "plane.pga=1")
+
+    def test_has_its_flips_and_its_scan_in_the_unit_of_the_quantity(self):
+        self.overturn("boundary", "boundary.h5", *self.ALONG)
+        with h5py.File(self.folder / "boundary.h5") as file:
+            flips = file["flip_value"][:]
+        with open_result(self.folder / "boundary.h5", BOUNDARY) as file:
+            lines = boundaries.Lines(plane_of(file), "job")
+        np.testing.assert_array_equal(lines.flips, flips)
+        self.assertEqual(lines.scan, (0.3, 1.2))
+        self.assertGreater(np.isfinite(flips).sum(), 3)
+        words = self.svg(tool="plot_boundary", file="boundary.h5")
+        for text in ("width [m]", "pulse period [s]", "PGA = 1 g", "overturns at the first width of the job"):
+            self.assertIn(f">{text}" if text != "PGA = 1 g" else text, words)
+
+    def test_is_refused_in_physical_units_if_the_size_varies(self):
+        self.overturn("boundary", "spectrum.h5", *self.ALONG)
+        self.refuses(74, "the size of the block varies along width", *PHYSICAL, tool="plot_boundary")
+
+
 class TestAnOverlaidBoundary(Sized):
     def dots(self, units="job"):
         """Returns the drawn points, in ascending order."""
@@ -238,6 +259,11 @@ class TestAnOverlaidBoundary(Sized):
         self.assertGreater(len(self.dots()), 5)
         self.refuses(74, "has different blocks from the spectrum: size differs", "--boundary",
                      "boundary.h5", *PHYSICAL)
+
+    def test_is_along_the_strength(self):
+        self.overturn("run", "spectrum.h5")
+        self.overturn("boundary", "boundary.h5", "boundary.along=width", "block.width={values=[0.3, 0.9]}", "plane.pga=1")
+        self.refuses(74, "has flips along width", "--boundary", "boundary.h5")
 
     def test_covers_some_of_the_spectrum(self):
         self.overturn("run", "spectrum.h5")

@@ -49,6 +49,7 @@ OF_MOTION = {"acceleration", "angle", "force_along", "force_normal", "friction_d
              "slide_velocity", "velocity"}
 # The last columns of every kind of table, and one that it always has.
 LAST = ((FIELDS, REGION), ({"flip_amplitude", "flip_pga", "region_below", "region_above"}, "flip_amplitude"),
+        ({"flip_value", "region_below", "region_above"}, "flip_value"),
         (OF_MOTION, "q"), ({f"{name}_{side}" for side in ("before", "after") for name in OF_MOTION}, "q_after"))
 FIRST = {*tables.QUANTITIES, *COUNTED, "crossing", "time", "setting", "frequency_parameter_minus"}
 NUMBER = re.compile("[-+.0-9einfa]*")  # inf and nan, too
@@ -120,7 +121,8 @@ def rows_of(file, choices, units):
         kept = np.ones(columns[0].shape, bool)
         if "crossing" in dimensions:  # beyond the last flip there is nothing, but each line has a row
             columns_of = dict(zip(names, columns))
-            kept = np.isfinite(columns_of["flip_amplitude"]) | (columns_of["crossing"] == 0)
+            flips = next(columns_of[name] for name in ("flip_amplitude", "flip_value") if name in columns_of)
+            kept = np.isfinite(flips) | (columns_of["crossing"] == 0)
         yield from zip(*((column[kept].astype(int) if name in integers else column[kept]).tolist()
                          for name, column in zip(names, columns)))
 

@@ -4,7 +4,6 @@ import numpy as np
 
 from overturn.block_groups import texts_of
 from overturn.regions import APART, BETWEEN, ranks, worst
-from overturn.tables import STRENGTHS
 from overturn.tool import USAGE, ToolError
 
 JOB, PHYSICAL = "job", "physical"  # units: those of the job, or seconds, g and degrees
@@ -112,7 +111,7 @@ class Plane:
 
 def scanned_quantity(file):
     """Returns the quantity of the job along which a boundary was scanned."""
-    return next(name for name in STRENGTHS if f"scan_{name}" in file.run)
+    return next(name.removeprefix("scan_") for name in file.run if name.startswith("scan_"))
 
 
 def are_geometric(values):

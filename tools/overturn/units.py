@@ -5,7 +5,7 @@ import numpy as np
 from overturn.captions import escaped, is_linear, is_recorded, names_of
 from overturn.motion_words import worded
 from overturn.spectrum_planes import COUNTED, JOB, LOG, PHYSICAL, Axis, scanned_quantity
-from overturn.tables import QUANTITIES
+from overturn.tables import QUANTITIES, STRENGTHS
 from overturn.tool import USAGE, ToolError
 
 LABELS = {"frequency": r"pulse frequency  $\omega_p\,/\,p$",
@@ -46,6 +46,9 @@ def expect_size(file, units):
     if units not in (JOB, PHYSICAL):
         raise ToolError(f"units = {units!r} is neither {JOB!r} nor {PHYSICAL!r}.")
     if units == PHYSICAL and not is_recorded(file) and not {"size", "frequency_parameter"} & {*file, *file.attrs}:
+        if "flip_value" in file:
+            raise ToolError(f"\"{file.filename}\" cannot be given in physical units, because the size of the block varies "
+                            f"along {scanned_quantity(file)}. Use the units of the job.")
         raise ToolError(f"\"{file.filename}\" cannot be given in physical units, because its job does "
                         "not give the size of the block. Add [block] with width and height to the "
                         "job, or the half diagonal plane.size, in metres, and compute it again.")
@@ -95,6 +98,9 @@ def physical(file, name, values, property_of):
 
 def label_of(file, quantity):
     """Returns the label of an axis."""
+    if quantity not in file and quantity in QUANTITIES and quantity not in LABELS:  # of flips
+        units = QUANTITIES[quantity][0]
+        return escaped(quantity.replace("_", " ")) + f" [{units}]" * (units != "")
     if quantity not in LABELS:
         attributes = file[quantity].attrs
         units = attributes.get("units", "1")
@@ -151,4 +157,6 @@ def scan_of(plane, quantity):
 
 def name_of_flips(quantity):
     """Returns the field with the flips of a boundary in this quantity."""
+    if quantity not in STRENGTHS:
+        return "flip_value"
     return "flip_pga" if quantity == "pga" else "flip_amplitude"

@@ -31,7 +31,7 @@ inline constexpr std::array<std::string_view, 4> names_of<FileKind>{
 
 inline FileKind kind_of(const Product& product)
 {
-    return product.scans_strengths() ? FileKind::boundary : FileKind::spectrum;
+    return product.boundaries() != nullptr ? FileKind::boundary : FileKind::spectrum;
 }
 
 /// The metadata that every kind of result file contains.

@@ -40,6 +40,7 @@ struct Job {
     std::string title;
     Problem problem;
     std::vector<RecordedMotion> motions; ///< those of scene.records, in order; empty: a pulse
+    const Quantity* along = nullptr;     ///< of boundary_of(); nullptr: the strength
     std::optional<BlockTable> blocks;    ///< of which the grid has the columns that describe points
 
     std::string given;                  ///< the job file, byte for byte
@@ -60,8 +61,8 @@ Job read_job_text(std::string text, const std::string& name,
                   const std::vector<std::string>& overrides = {});
 
 /// The job that computes the boundary of a spectrum: the flips between the first and the last of
-/// its strengths. Throws Error if there is only one strength, if there is a table, or if the
-/// result would be too large.
+/// its strengths, or of the quantity that the job names. Throws Error if this has only one value,
+/// if there is a table, or if the result would be too large.
 Job boundary_of(Job spectrum);
 
 } // namespace overturn

@@ -41,6 +41,10 @@ std::vector<std::string_view> keys_of(std::string_view table, std::optional<Unde
 /// "plane.frequency.count".
 std::vector<std::string> override_keys();
 
+/// The quantities along which flips of the verdict are searched: strengths, and those of the block
+/// and of its loss at impacts.
+std::vector<std::string_view> scanned_quantities();
+
 /// The keys of an axis that is a table; that of the restitution also has `of`, which says of what
 /// its values are a share.
 inline constexpr std::array<std::string_view, 5> axis_keys{"values", "first", "last", "count",

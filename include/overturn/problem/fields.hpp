@@ -25,7 +25,7 @@ struct Field {
 
     /// Those that are known by name outside their row.
     static const Field region, angle, velocity, margin, error, peak, fall_time, friction_demand,
-        slide, slide_peak, normal, impacts, steps, status, flip_amplitude, region_below,
+        slide, slide_peak, normal, impacts, steps, status, flip_amplitude, flip_value, region_below,
         region_above, flip_pga, unsafe_share, undecided_share, evaluated;
 };
 
@@ -44,6 +44,7 @@ inline constexpr Field Field::impacts{"impacts"};
 inline constexpr Field Field::steps{"steps"};
 inline constexpr Field Field::status{"status"};
 inline constexpr Field Field::flip_amplitude{"flip_amplitude"};
+inline constexpr Field Field::flip_value{"flip_value"};
 inline constexpr Field Field::region_below{"region_below"};
 inline constexpr Field Field::region_above{"region_above"};
 inline constexpr Field Field::flip_pga{"flip_pga"};

@@ -15,24 +15,26 @@ namespace overturn {
 
 struct Problem {
     Scene scene{};
-    Grid grid{}; ///< of a boundary: the scan begins with its strengths
+    Grid grid{}; ///< of a boundary: the scan begins with its values
     Numerics numerics{};
     Product product{};
     std::vector<Field> fields{}; ///< in the job's order, without duplicates; of a filled spectrum,
                                  ///< `evaluated` is the last one
 };
 
-/// The name of the dimension along the flips of a boundary, which replaces the strength.
+/// The name of the dimension along the flips of a boundary, which replaces that of the strength or
+/// of another quantity.
 inline constexpr std::string_view flip_dimension = "crossing";
 
-/// Slowest first: those of the grid; of a boundary, `crossing` instead of the strength.
+/// Slowest first: those of the grid; of a boundary, `crossing` instead of what is scanned.
 std::vector<StoredDimension> stored_dimensions(const Problem& problem);
 Shape stored_shape(const Problem& problem);
 
 /// The fields of a boundary: flip_amplitude, region_below, region_above; flip_pga under a record,
 /// and if the size of the block is known or the strength is a pga; the fields of a line under a
-/// record.
-std::vector<Field> boundary_fields(const Scene& scene, const Grid& grid);
+/// record. Along another quantity, flip_value instead of flip_amplitude and flip_pga.
+std::vector<Field> boundary_fields(const Scene& scene, const Grid& grid,
+                                   const Boundaries& boundaries = {});
 
 /// The division into tiles.
 Tiling tiling_of(const Problem& problem);

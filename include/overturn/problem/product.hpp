@@ -4,6 +4,7 @@
 
 #include "overturn/problem/tile.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,7 +13,9 @@
 
 namespace overturn {
 
+struct Grid;
 struct Problem;
+struct Quantity;
 
 /// A dimension of the stored fields.
 struct StoredDimension {
@@ -43,9 +46,16 @@ struct FilledSpectrum : Spectrum {
     Shape tile(const Problem& problem) const;
 };
 
-/// The strengths at which the verdict flips, for all other coordinates.
+/// The values of one coordinate at which the verdict flips, for all others.
 struct Boundaries {
+    /// Of the block, or of its loss at impacts; nullptr: the strength.
+    const Quantity* along = nullptr;
+
     bool operator==(const Boundaries&) const = default;
+
+    /// The place of the dimension that the flips replace.
+    std::size_t dimension(const Grid& grid) const;
+
     std::vector<StoredDimension> dimensions(const Problem& problem) const;
     Shape tile(const Problem& problem) const;
     Items items(const Problem& problem) const;
@@ -59,8 +69,8 @@ struct Product : std::variant<Spectrum, FilledSpectrum, Boundaries> {
     /// every verdict, and has fields of its own.
     bool has_settings() const { return !std::holds_alternative<Boundaries>(*this); }
 
-    /// Whether the strengths are replaced by the dimension flip_dimension.
-    bool scans_strengths() const { return std::holds_alternative<Boundaries>(*this); }
+    /// If it has flips along a dimension instead of its values; nullptr if it has not.
+    const Boundaries* boundaries() const { return std::get_if<Boundaries>(this); }
 
     /// The share of the filled points that are integrated as well; none if no point is filled.
     std::optional<double> audit() const

@@ -1,5 +1,6 @@
 #include "result_remarks.hpp"
 
+#include "overturn/text/is_one_of.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include <boost/math/distributions/binomial.hpp>
@@ -15,16 +16,18 @@ bool is_boundary(const StoredResult& stored)
     return stored.origin().kind == FileKind::boundary;
 }
 
-std::string text_of(const BoundaryLines& lines)
+/// scanned: the plural of what a line consists of.
+std::string text_of(const BoundaryLines& lines, std::string_view scanned)
 {
     std::vector<std::string> parts;
-    const auto add = [&](std::int64_t count, const char* what) {
+    const auto add = [&](std::int64_t count, const std::string& what) {
         if (count > 0) {
             parts.push_back(fmt::format("{}: {} of {} lines", what, count, lines.computed));
         }
     };
-    add(lines.unsafe_at_first, "overturning at the first amplitude of the job");
-    add(lines.undecided, "with undecided amplitudes or more flips than are stored");
+    add(lines.unsafe_at_first,
+        fmt::format("overturning at the first {} of the job", noun_of(1, scanned)));
+    add(lines.undecided, fmt::format("with undecided {} or more flips than are stored", scanned));
     if (lines.has_shares && lines.computed > 0) {
         parts.push_back(
             fmt::format("overturning in {:.3g} % of the scanned interval, undecided in {:.3g} %",
@@ -54,7 +57,8 @@ std::vector<std::string> remarks_on(const StoredResult& stored)
 {
     std::vector<std::string> remarks;
     if (is_boundary(stored)) {
-        remarks.push_back(text_of(stored.count_lines()));
+        const bool is_strength = is_one_of(Field::flip_amplitude, stored.tiles().fields);
+        remarks.push_back(text_of(stored.count_lines(), is_strength ? "amplitudes" : "values"));
     }
     if (stored.tiles().audit) {
         remarks.push_back(text_of(*stored.tiles().audit));

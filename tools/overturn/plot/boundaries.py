@@ -24,6 +24,7 @@ from overturn.plot.headings import Heading
 from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.result_file import BOUNDARY, open_result
 from overturn.spectrum_planes import BANDS, Axis
+from overturn.tables import STRENGTHS
 from overturn.tool import parse_with_picture, parser_of
 from overturn.units import add_units_argument, axis_of, expect_size, name_axes, name_of_flips, scan_of
 
@@ -49,7 +50,7 @@ ROWS = 1400  # of the shading: half a pixel at the default size
 COLUMN = 4  # height over width of the panel of a single block and frequency
 HEIGHT = 6.6  # of the figure of one plane [inches], with one line each for its title and for what is below it
 SIZES, TOPS = (13, 10), (0.297, 0.541)  # of these lines [points], and of their baselines from the top [inches]
-WORDS = {"amplitude": "amplitude", "scale": "scale", "pga": "PGA"}  # for what is scanned
+WORDS = {"pga": "PGA"}  # for what is scanned, where it is not its name
 
 
 class Lines:
@@ -62,7 +63,8 @@ class Lines:
         self.is_column, self.is_along_nothing = len(self.frequency) == 1, across is None
         scan = scan_of(plane, up)
         self.up, self.scan = Axis(scan, is_to_scale=True), (np.min(scan), np.max(scan))
-        self.ground, self.word = ground_word(plane.file), worded(plane.file.attrs, WORDS[up])
+        self.ground, self.word = ground_word(plane.file), worded(plane.file.attrs, WORDS.get(up, up.replace("_", " ")))
+        self.is_strength = up in STRENGTHS
         self.flips = plane.read(name_of_flips(up))
         codes = np.stack([plane.read(name) for name in ("region_below", "region_above")])
         self.below, self.above = VERDICTS[codes]
@@ -129,7 +131,8 @@ def legend_entries(all_lines):
         return Patch(facecolor=SHADES[verdict], edgecolor="black", linewidth=0.5)
     hatched = Patch(**regions.HATCH, linewidth=0.5)
     word = all_lines[0].word
-    lowest = f"minimum overturning {word}" if all_lines[0].ground == "pulse" else "lowest flip found"
+    is_minimum = all_lines[0].ground == "pulse" and all_lines[0].is_strength
+    lowest = f"minimum overturning {word}" if is_minimum else "lowest flip found"
     entries = [
         (lambda lines: np.isfinite(lines.minimum()), marks(".", FIRST, 9), lowest),
         (lambda lines: lines.overturns_at_once, marks("^", FIRST, 5),
@@ -156,8 +159,9 @@ def draw_panel(panel, lines):
 
 
 def note_on_strips(plane, lines):
-    step = float(plane.file["flip_amplitude"].attrs["finest_step"])
-    return (f"Scanned in steps of {100 * step:g} % of the {lines.word} or less.", "There are narrower strips, "
+    step = float(plane.file["flip_amplitude" if lines.is_strength else "flip_value"].attrs["finest_step"])
+    of = f"the {lines.word}" if lines.is_strength else "the range"
+    return (f"Scanned in steps of {100 * step:g} % of {of} or less.", "There are narrower strips, "
             "which are not drawn.")
 
 
