@@ -277,7 +277,7 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
             "restitution_of_maximum, between FIRST and LAST at which it topples")
         ->expected(3)
         ->type_name("QUANTITY FIRST LAST")
-        ->excludes("--pga-max", "--history");
+        ->excludes("--pga-max", "--history", "--no-search");
 }
 
 void add_assess_arguments(CLI::App& command, AssessOptions& options)
