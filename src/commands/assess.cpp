@@ -87,6 +87,18 @@ std::string job_text(const AssessOptions& options)
     return text;
 }
 
+/// Of an object that topples, or may.
+std::optional<LeastWidths> widths_of_worst(const Problem& problem,
+                                           const std::vector<ObjectCase>& cases,
+                                           const ObjectAnswer& worst)
+{
+    if (worst.verdict.value_or(Verdict::safe) == Verdict::safe) {
+        return std::nullopt;
+    }
+    const auto its = std::ranges::equal_range(cases, worst.object, {}, &ObjectCase::object);
+    return least_widths_of(problem, {its.begin(), its.end()}, threads_of_processor());
+}
+
 } // namespace
 
 int assess(const AssessOptions& options)
@@ -111,16 +123,18 @@ int assess(const AssessOptions& options)
                                           }
                                           progress->update(std::int64_t(done));
                                       }};
-    const std::vector<ObjectAnswer> answers = answers_of(cases_of(job.problem, question));
+    const std::vector<ObjectCase> cases = cases_of(job.problem, question);
+    const std::vector<ObjectAnswer> answers = answers_of(cases);
     progress.reset();
+    const std::optional<LeastWidths> widths = widths_of_worst(job.problem, cases, answers.front());
     if (!options.csv.empty()) {
         write_answers(options.csv, csv_of(job, answers));
     }
     if (options.json) {
-        fmt::print("{}", json_of(job, answers, options));
+        fmt::print("{}", json_of(job, answers, widths, options));
         return exit_code::complete;
     }
-    print_assessment(job, answers, options);
+    print_assessment(job, answers, widths, options);
     if (!options.csv.empty()) {
         fmt::print("\n{}: written\n", printable(options.csv));
     }

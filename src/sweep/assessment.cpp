@@ -3,6 +3,7 @@
 #include "point_run.hpp"
 
 #include "overturn/problem/coordinates.hpp"
+#include "overturn/problem/given.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/sweep/in_threads.hpp"
 #include "overturn/sweep/toppling.hpp"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <tuple>
 
@@ -32,18 +34,15 @@ Numerics numerics_of_search(const Scene& scene, const Point& point)
     return numerics;
 }
 
-/// The places along a dimension of the points of a grid, row by row.
-std::vector<std::int64_t> places_along(const Grid& grid, std::size_t dimension)
+/// The place of a point of a grid along its dimensions, of which the last one is the fastest.
+Shape place_of(std::int64_t point, const Shape& shape)
 {
-    std::vector<std::int64_t> places(std::size_t(grid.points()));
-    std::int64_t inner = 1;
-    for (std::size_t i = dimension + 1; i < grid.dimensions.size(); ++i) {
-        inner *= grid.dimensions[i].size();
+    Shape place(shape.size());
+    for (std::size_t i = shape.size(); i-- > 0;) {
+        place[i] = point % shape[i];
+        point /= shape[i];
     }
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        places[i] = std::int64_t(i) / inner % grid.dimensions[dimension].size();
-    }
-    return places;
+    return place;
 }
 
 /// At least this number of tiles, if there are as many points, each of successive points.
@@ -219,7 +218,7 @@ std::vector<ObjectCase> cases_of(const Problem& problem, const AssessmentQuestio
     const std::vector<double> sizes =
         coordinates.has(size) ? coordinates.along({table}, size) : std::vector<double>();
     const std::vector<Point> points = coordinates.points();
-    const std::vector<std::int64_t> rows = places_along(problem.grid, table);
+    const Shape shape = problem.grid.shape();
     std::vector<std::size_t> chosen;
     std::vector<ObjectCase> cases;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -227,9 +226,12 @@ std::vector<ObjectCase> cases_of(const Problem& problem, const AssessmentQuestio
         const bool is_mirror_image = std::signbit(point.amplitude) && !scene.has_two_components();
         if (!(is_mirror_image && point.block.is_symmetric())) {
             chosen.push_back(i);
-            cases.push_back({.object = rows[i],
+            const Shape place = place_of(std::int64_t(i), shape);
+            const std::int64_t object = place[table];
+            cases.push_back({.object = object,
+                             .place = place,
                              .point = point,
-                             .size = sizes.empty() ? unknown : sizes[std::size_t(rows[i])]});
+                             .size = sizes.empty() ? unknown : sizes[std::size_t(object)]});
         }
     }
     if (question.has_strength) {
@@ -363,6 +365,51 @@ std::vector<ObjectAnswer> answers_of(const std::vector<ObjectCase>& cases)
     };
     std::ranges::sort(answers, {}, rank);
     return answers;
+}
+
+std::optional<LeastWidths> least_widths_of(const Problem& problem,
+                                           std::span<const ObjectCase> cases, int threads)
+{
+    const Quantity& width = quantity("width");
+    const Column* const widths = problem.grid.find("width");
+    if (widths == nullptr) {
+        return std::nullopt;
+    }
+    std::vector<QuantityLine> lines;
+    for (const ObjectCase& each : cases) {
+        lines.push_back(line_along(width, problem.grid, each.place));
+    }
+    const auto is_possible = [&](double value) {
+        std::vector<Given> given{{&width, "width", Axis(AxisList{value}), GivenAs::number}};
+        for (const Column& number : lines.front().others.numbers) {
+            given.push_back({number.quantity, "", number.values, GivenAs::number});
+        }
+        try {
+            grid_of(problem.scene, std::move(given));
+            return true;
+        } catch (const GivenError&) {
+            return false;
+        }
+    };
+    const bool is_number = widths->values.size() == 1;
+    const double own = widths->values[is_number ? 0 : cases.front().object];
+    LeastWidths least{.object = cases.front().object,
+                      .width = own,
+                      .end = 3 * own,
+                      .safe_from = std::vector<double>(cases.size())};
+    while (!is_possible(least.end) && least.end > 1.01 * own) {
+        least.end = std::midpoint(own, least.end);
+    }
+    in_threads(
+        lines.size(), threads,
+        [&](std::size_t i) {
+            const VerdictRanges ranges =
+                verdict_ranges(problem.scene, lines[i], own, least.end, nullptr);
+            least.safe_from[i] = ranges.safe_from().value_or(infinity);
+        },
+        nullptr);
+    std::ranges::sort(least.safe_from);
+    return least;
 }
 
 } // namespace overturn

@@ -143,6 +143,28 @@ class Assess(Scratch):
             if answer["toppling_pga_above"]:
                 self.assertAlmostEqual(row["factor_above"], answer["toppling_pga_above"] / 0.4, places=12)
 
+    def test_says_how_wide_the_worst_object_must_be(self):
+        self.write_table("name,width,height,center_offset\nleaning,0.4,1.2,0.05\nlow,1,1,0\n")
+        motion = ("--period", "0.5,0.8", "--pga", "0.6")
+        found = self.overturn("assess", "objects.csv", "--json", *motion)
+        widths = json.loads(found.stdout)["least_widths"]
+        self.assertEqual((widths["object"], widths["width"]), ("leaning", 0.4))
+        self.assertAlmostEqual(widths["end_of_search"], 1.2, places=12)
+        answers = [json.loads(self.overturn("topple", "--height", "1.2", "--center-offset", "0.05", "--period", period, "--pga",
+                                            "0.6", "--direction", direction, "--vary", "width", "0.4", "1.2",
+                                            "--json").stdout) for period in ("0.5", "0.8") for direction in ("0", "180")]
+        self.assertEqual(widths["safe_from"], sorted(answer["safe_from"] for answer in answers))
+        self.assertGreater(widths["safe_from"][-1], 0.4)
+        self.assertIn(f"would stand with a width from {math.ceil(widths['safe_from'][-1] * 1e4) / 1e4:.4f} m on in all cases",
+                      self.overturn("assess", "objects.csv", *motion).stdout)
+        wide = self.rows(*motion)["low"]
+        self.assertNotEqual(wide["verdict"], "topples")
+        # Without a width in the table, and if nothing topples, there is no answer.
+        for table, pga in (("name,size,slenderness\nslim,1,0.1\n", "0.9"), (TABLE, "0.05")):
+            self.write_table(table)
+            found = self.overturn("assess", "objects.csv", "--period", "0.5", "--pga", pga, "--json")
+            self.assertIsNone(json.loads(found.stdout)["least_widths"])
+
     def test_without_a_strength_gives_no_verdict(self):
         self.write_table(TABLE)
         rows = self.rows("--period", "0.5")

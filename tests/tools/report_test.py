@@ -75,6 +75,18 @@ class TestReport(InAFolder):
                       "Nothing is known above the search, 2 g, of: vase <of glass>", "Objects slip on their base"):
             self.assertIn(words, text)
 
+    def test_says_how_wide_the_worst_object_must_be(self):
+        answers = self.answers("--period", "0.3,0.5", "--pga", "0.4")
+        self.assertEqual(answers["least_widths"]["object"], "slim & tall")
+        for widths, words in (([0.31, 0.40001], "It would stand with a base 0.4001 m wide in all cases, all else equal; "
+                                                "0.3100 m are enough in 1 of 2."),
+                              ([0.31, None], "No base up to 0.6 m wide would be enough in all cases"),
+                              ([0.31], "It would stand with a base 0.3100 m wide, all else equal.")):
+            answers["least_widths"].update(safe_from=widths, end_of_search=0.6)
+            self.assertIn("slim & tall is 0.2 m wide. " + words, " ".join("".join(self.page(answers).text).split()))
+        answers["least_widths"] = None
+        self.assertNotIn("m wide", "".join(self.page(answers).text))
+
     def test_never_shows_what_is_unknown_as_safe(self):
         answers = self.answers("--period", "0.5", "--pga", "0.4")
         answers["objects"][1].update(verdict="undecided", undecided_from=0.3, peak_of_alpha=None, slide=None)

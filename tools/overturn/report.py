@@ -78,6 +78,10 @@ in at least one of up to {{ most_cases }} cases (motions, periods and directions
 <li><b>{{ each.title }}</b>: from {{ each.topples_from|strength }}{% if each.cases > 1 %}, in
 {{ (100 * each.share_toppling)|round|int }} % of its cases{% endif %}</li>{% endfor %}</ol>
 {% if toppling|length > 20 %}<p>The others follow in the table.</p>{% endif %}
+{% if widths %}<p>{{ widths.object }} is {{ '%.4g'|format(widths.width) }} m wide. {% if widths.all %}It would stand with a base
+{{ widths.all|width }} m wide{% if widths.cases > 1 %} in all cases{% endif %}, all else equal{% if widths.most %}; {{ widths.most|width }} m
+are enough in {{ widths.most_cases }} of {{ widths.cases }}{% endif %}.{% else %}No base up to {{ '%.4g'|format(widths.end) }} m wide would be
+enough in all cases, all else equal.{% endif %}</p>{% endif %}
 {% else %}<p>None of {{ objects|length }} objects is found to topple.{% if undecided %} Some are undecided, see below.{% endif %}</p>
 {% endif %}
 {% if near %}<p>Near a verdict: {% for each in near %}{{ each.title }} ({{ each.note }}){{ '; ' if not loop.last }}{% endfor %}.</p>{% endif %}
@@ -206,6 +210,17 @@ def draw(rows, asked, measure):
     return svg[svg.index("<svg"):]
 
 
+def widths_of(answers):
+    """Returns how wide the first object must be to stand in all cases, and in nine of ten."""
+    least = answers["least_widths"]
+    if least is None:
+        return None
+    values = least["safe_from"]
+    most = math.floor(0.9 * len(values))
+    return {"object": least["object"], "width": least["width"], "end": least["end_of_search"], "cases": len(values),
+            "all": values[-1], "most": values[most - 1] if 0 < most < len(values) else None, "most_cases": most}
+
+
 def page_of(answers):
     """Returns the page, as a text."""
     rows = answers["objects"]
@@ -221,7 +236,7 @@ def page_of(answers):
     has_slip = "slides_from" in rows[0]
     environment = Environment(autoescape=True)
     environment.filters.update(number=number, above_search=above_search, tilt=tilt, slide=slide,
-                               strength=lambda value: f"{number(value, '')} g")
+                               width=lambda value: f"{math.ceil(value * 1e4) / 1e4:.4f}", strength=lambda value: f"{number(value, '')} g")
     measured = f"scale {answers['scale']:g} of every record" if answers["scale"] else f"{measure} {asked} g"
     return environment.from_string(PAGE).render(
         made_by=Markup(MADE_BY), title="Which objects topple?", motion=text, strength=measured if is_asked else "", asked=is_asked, objects=rows,
@@ -232,7 +247,7 @@ def page_of(answers):
         fine=answers["search"] == "fine", open_ended=[row for row in rows if row["topples_from"] is None],
         most_cases=max(row["cases"] for row in rows), has_slip=has_slip, picture=Markup(draw(rows, asked, measure)),
         assumptions=(*ASSUMPTIONS, WITH_FRICTION if has_slip else WITHOUT_FRICTION), warnings=answers["warnings"],
-        version=answers["program_version"], table=answers["table"], measure=measure, gravity=answers["gravity"],
+        version=answers["program_version"], table=answers["table"], measure=measure, widths=widths_of(answers), gravity=answers["gravity"],
         topples=REGIONS[TOPPLES][2])
 
 

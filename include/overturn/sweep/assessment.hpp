@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace overturn {
@@ -43,6 +44,7 @@ TopplingStrengths toppling_strengths(const Scene& scene, const BoundaryLine& lin
 /// An object under one motion in one direction.
 struct ObjectCase {
     std::int64_t object = 0; ///< the row of the table, from 0
+    Shape place;             ///< along the dimensions of the grid
     Point point;             ///< with the asked strength, or 0
     double pga = 0;          ///< the asked peak ground acceleration over g
     double size = 0;         ///< R of the side plus [m]; NaN if it is not known
@@ -101,5 +103,21 @@ struct ObjectAnswer {
 /// The answers for all objects, the most vulnerable first: those that topple, that may topple, and
 /// that stand; then by the lowest strength that is not safe, and by that which moves them.
 std::vector<ObjectAnswer> answers_of(const std::vector<ObjectCase>& cases);
+
+/// The widths from which on an object stands at the asked strength.
+struct LeastWidths {
+    std::int64_t object; ///< the row of the table, from 0
+    double width;        ///< its own [m]
+    double end;          ///< of the search, which begins with this width [m]
+    /// Of the cases, ascending: the width from which on each is safe, infinite if it is not at the
+    /// end. From the last one on, all are [m].
+    std::vector<double> safe_from;
+};
+
+/// Of the object of these cases; nullopt if the table does not have its width. Height, offsets and
+/// friction stay, and so does the share of r_max, if that is given instead of r. The search is that
+/// of ranges_along(), up to three times the width, if such a block is possible.
+std::optional<LeastWidths> least_widths_of(const Problem& problem,
+                                           std::span<const ObjectCase> cases, int threads);
 
 } // namespace overturn

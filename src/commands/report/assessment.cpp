@@ -230,10 +230,35 @@ std::vector<PrintedColumn> printed_columns(const Job& job, const std::vector<Obj
     return columns;
 }
 
+/// How wide the object must be to stand in all cases, and in all but one or two.
+std::string widths_text(const std::string& name, const LeastWidths& widths)
+{
+    const std::size_t cases = widths.safe_from.size();
+    std::vector<std::string> parts;
+    for (std::size_t i = 0; i < std::min<std::size_t>(cases, 3); ++i) {
+        const double from = widths.safe_from[cases - 1 - i];
+        if (!std::isinf(from)) {
+            const std::string count = i > 0       ? fmt::format("in {} of {}", cases - i, cases)
+                                      : cases > 1 ? "in all cases"
+                                                  : "";
+            parts.push_back(fmt::format("from {:.4f} m on {}", rounded_up(from, decimals), count));
+        }
+    }
+    if (parts.empty()) {
+        return fmt::format("{} is {:.4g} m wide, and no width up to {:.4g} m is enough.", name,
+                           widths.width, widths.end);
+    }
+    std::string text = fmt::format("{}", fmt::join(parts, ", "));
+    text.erase(text.find_last_not_of(' ') + 1);
+    return fmt::format(
+        "{} is {:.4g} m wide, and would stand with a width {}, as searched up to {:.4g} m.", name,
+        widths.width, text, widths.end);
+}
+
 } // namespace
 
 void print_assessment(const Job& job, const std::vector<ObjectAnswer>& answers,
-                      const AssessOptions& options)
+                      const std::optional<LeastWidths>& widths, const AssessOptions& options)
 {
     const Scene& scene = job.problem.scene;
     const bool has_strength = answers.front().verdict.has_value();
@@ -275,6 +300,10 @@ void print_assessment(const Job& job, const std::vector<ObjectAnswer>& answers,
                    : fmt::format("searched in steps of at most {:.2g} % and refined to {:.2g} %",
                                  100 * toppling_step, 100 * width_of_lowest),
                has_strength ? " The tilt is the largest, over alpha." : "");
+    if (widths) {
+        fmt::print("{}\n",
+                   widths_text(printable(name_of_object(*job.blocks, widths->object)), *widths));
+    }
 }
 
 std::string csv_of(const Job& job, const std::vector<ObjectAnswer>& answers)
@@ -297,7 +326,7 @@ std::string csv_of(const Job& job, const std::vector<ObjectAnswer>& answers)
 }
 
 std::string json_of(const Job& job, const std::vector<ObjectAnswer>& answers,
-                    const AssessOptions& options)
+                    const std::optional<LeastWidths>& widths, const AssessOptions& options)
 {
     const Scene& scene = job.problem.scene;
     Json members;
@@ -321,6 +350,14 @@ std::string json_of(const Job& job, const std::vector<ObjectAnswer>& answers,
     members["step_of_search"] = options.fine ? Json() : Json(toppling_step);
     members["width_of_search"] = options.fine ? Json() : Json(width_of_lowest);
     members["warnings"] = warnings_on(job);
+    Json& least_widths = members["least_widths"];
+    if (widths) {
+        least_widths["object"] = name_of_object(*job.blocks, widths->object);
+        least_widths["width"] = widths->width;
+        least_widths["end_of_search"] = widths->end;
+        least_widths["safe_from"] =
+            mapped(widths->safe_from, [](double each) { return known(each); });
+    }
     Json& objects = members["objects"] = Json::array();
     for (const ObjectAnswer& answer : answers) {
         objects.push_back(row_of(job, answer));

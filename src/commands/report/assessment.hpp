@@ -6,6 +6,7 @@
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/assessment.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,9 @@ std::string outcome_word(const ObjectAnswer& answer);
 /// is not known.
 std::string note_on(const ObjectAnswer& answer);
 
-/// The motions and the table of the objects, for people.
+/// The motions and the table of the objects, for people. widths: of the first one, if it topples.
 void print_assessment(const Job& job, const std::vector<ObjectAnswer>& answers,
-                      const AssessOptions& options);
+                      const std::optional<LeastWidths>& widths, const AssessOptions& options);
 
 /// The columns of the table of the objects, then those of the answer.
 std::string csv_of(const Job& job, const std::vector<ObjectAnswer>& answers);
@@ -29,6 +30,6 @@ std::string csv_of(const Job& job, const std::vector<ObjectAnswer>& answers);
 /// `objects`: a list of the same columns; `motions`; and what was asked. Strengths that are above
 /// the search are null.
 std::string json_of(const Job& job, const std::vector<ObjectAnswer>& answers,
-                    const AssessOptions& options);
+                    const std::optional<LeastWidths>& widths, const AssessOptions& options);
 
 } // namespace overturn
