@@ -202,13 +202,9 @@ VariedQuantity varied_quantity(std::vector<std::string> words)
     }
     const auto name = std::ranges::find(names, words[0]);
     if (name == names.end()) {
-        const std::string_view nearest = nearest_name(words[0], names);
         throw CLI::ValidationError(
-            nearest.empty()
-                ? fmt::format("--vary: \"{}\" is not one of {}.", words[0], fmt::join(names, ", "))
-                : fmt::format("--vary: there is no quantity \"{}\". Did you mean "
-                              "\"{}\"?",
-                              words[0], nearest));
+            fmt::format("--vary: there is no quantity \"{}\".{} Allowed: {}.", words[0],
+                        suggestion(words[0], names), fmt::join(names, ", ")));
     }
     const Quantity& varied = quantity(*name);
     const double first = allowed_value(varied, "--vary", words[1]);

@@ -76,7 +76,7 @@ class AVariedQuantity(Scratch):
     def test_is_refused_before_anything_is_computed(self):
         for arguments, words in (
                 (("--vary", "widht", "0.3", "1"), 'Did you mean "width"?'),
-                (("--vary", "pga", "0.3", "1"), '"pga" is not one of width, '),
+                (("--vary", "pga", "0.3", "1"), 'there is no quantity "pga". Allowed: width, '),
                 (("--vary", "width", "1", "0.3"), "the first width, 1, is not below the last one, 0.3"),
                 (("--vary", "width", "0.3", "0.3"), "is not below the last one"),
                 (("--vary", "width", "0.3", "x"), "x is not a number"),
