@@ -97,7 +97,7 @@ class FilledSpectra(Scratch):
                 self.assertEqual("of the points are integrated" in checked.stdout, "fill" not in words[1])
         refused = self.overturn("boundary", "small.toml", *FILL)
         self.assert_exit(refused, 65, "Use --set numerics.fill=false.")
-        self.assert_exit(self.overturn("boundary", "small.toml", "-o", "b.h5", *FILL, "--set", "numerics.fill=false"), 0)
+        self.assert_exit(self.overturn("check", "small.toml", *FILL, "--set", "numerics.fill=false"), 0)
 
     def test_are_refused_as_boundaries(self):
         result = self.overturn("boundary", "small.toml", *FILL, "-o", "boundary.h5")
