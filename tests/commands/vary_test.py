@@ -29,6 +29,13 @@ class AVariedQuantity(Scratch):
                       "topples      below 0.6141 m, searched from 0.3 up to 1.2 m\n", "in steps of 0.00225 m, halved"):
             self.assertIn(words, text)
 
+    def test_states_the_restitution(self):
+        for given, words in ((("--restitution", "0.64"), "r = 0.64"), (("--velocity-restitution", "0.8"), "r = 0.64"),
+                             (("--restitution-of-maximum", "0.9"), "r = 0.9 r_max")):
+            text = self.overturn("topple", *HEIGHT, *given, "--vary", "width", "0.3", "1.2").stdout
+            self.assertIn(f"restitution  {words}\n", text)
+        self.assertNotIn("restitution  ", self.overturn("topple", *STATUE, "--vary", "velocity_restitution", "0.5", "1").stdout)
+
     def test_changes_the_verdict_where_topple_does(self):
         for name, first, last, others in (
                 ("width", 0.3, 1.2, HEIGHT), ("height", 1, 3, (*HEIGHT[2:], "--width", "0.6")),

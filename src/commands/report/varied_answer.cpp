@@ -1,5 +1,6 @@
 #include "varied_answer.hpp"
 
+#include "job.hpp"
 #include "print.hpp"
 #include "topple_answer.hpp"
 #include "topple_ranges.hpp"
@@ -89,10 +90,11 @@ void print_varied(const std::vector<DirectedRanges>& all, const ToppleOptions& o
     print_block_and_motion(all.front().job, options, all.size());
     if (vary.quantity->role != Role::loss) {
         const double share = options.restitution_of_maximum.value_or(1);
-        print_row("restitution", options.restitution
-                                     ? fmt::format("r = {:.4g}", *options.restitution)
-                                 : share == 1 ? "r = r_max"
-                                              : fmt::format("r = {:.4g} r_max", share));
+        print_row("restitution",
+                  options.restitution || options.velocity_restitution
+                      ? fmt::format("r = {:.4g}", extent_of(all.front().job, "restitution")->first)
+                  : share == 1 ? "r = r_max"
+                               : fmt::format("r = {:.4g} r_max", share));
     }
     const VerdictRanges worst = worst_of(all);
     print_row("verdict", sentence_of(worst, options));
