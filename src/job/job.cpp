@@ -202,6 +202,29 @@ std::string excess_of(const Problem& problem)
                              items_of(problem).name, bytes, most_bytes);
 }
 
+/// Refuses a quantity with values between its first and its last one that describe no block.
+void expect_range(const Problem& problem, const Column& scanned)
+{
+    constexpr std::int64_t values = 17; // what follows from a shape is smooth
+    const Axis range(AxisRange{scanned.values.first(), scanned.values.last(), values});
+    std::vector<Given> given;
+    const auto add = [&](const Column& column, GivenAs as) {
+        given.push_back({column.quantity, std::string(column.quantity->name),
+                         &column == &scanned ? range : column.values, as});
+    };
+    for (const Column& number : problem.grid.numbers) {
+        add(number, GivenAs::number);
+    }
+    for (const Dimension& dimension : problem.grid.dimensions) {
+        add(dimension.columns.front(), GivenAs::axis);
+    }
+    try {
+        grid_of(problem.scene, std::move(given));
+    } catch (const GivenError& error) {
+        throw Error(exit_code::job, "plane.{}{}", error.quantity(), error.what());
+    }
+}
+
 } // namespace
 
 Job read_job(const std::string& path, const std::vector<std::string>& overrides)
@@ -289,6 +312,9 @@ Job boundary_of(Job job)
                     "plane.{} has one value, {}, but flips are found between the first and the "
                     "last. Give two or more values.",
                     scanned->quantity->name, scanned->values.first());
+    }
+    if (job.along != nullptr) {
+        expect_range(problem, *scanned);
     }
     problem.product = boundaries;
     problem.fields = boundary_fields(problem.scene, problem.grid, boundaries);

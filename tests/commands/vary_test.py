@@ -173,6 +173,14 @@ class ABoundaryAlongAQuantity(Scratch):
             self.assert_exit(self.overturn("boundary", "job.toml", "-o", "x.h5", "--set", f"boundary.along={along}"), 65, words)
             self.assertFalse((self.folder / "x.h5").exists())
 
+    def test_is_refused_if_values_between_the_ends_describe_no_block(self):
+        # J / m = k^2 + h^2 - b_plus b_minus is smallest in the middle.
+        self.computed("b.h5")
+        wide = [f"--set=plane.{setting}" for setting in ("width=3", "height=1", "restitution=0.1", "pulse_period=0.5")]
+        for ends, code, words in (("first=1.2, last=1.4", 0, ""), ("first=-1.4, last=1.4", 65, "moment_kept = -")):
+            self.assert_exit(self.overturn("boundary", "job.toml", "-o", "x.h5", *wide, "--set", "boundary.along=center_offset",
+                                           "--set", f"plane.center_offset={{{ends}, count=2}}"), code, words)
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)
