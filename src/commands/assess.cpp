@@ -65,7 +65,7 @@ std::string job_text(const AssessOptions& options)
     std::string text = "[scene]\n";
     text += is_recorded ? fmt::format("record = [{}]\n",
                                       fmt::join(mapped(options.records, quoted_utf8), ", "))
-                        : fmt::format("pulse = {}\n", quoted_utf8(options.pulse));
+                        : pulse_lines(options.pulse, options.shape);
     text += component_line(options.component);
     text += fmt::format("[blocks]\ntable = {}\n[plane]\n", quoted_utf8(options.objects));
     text += options.scale || (is_recorded && !options.pga)

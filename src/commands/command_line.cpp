@@ -234,8 +234,10 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
     number("--pga", options.pga, "G", "Peak ground acceleration over g; without it, only ranges",
            largest_pga);
     add_text(command, "--pulse", options.pulse, "NAME", "Pulse; default: one_sine");
+    add_text(command, "--shape", options.shape, "FILE",
+             "Table of the pulse `table`: time over the period, value");
     add_text(command, "--record", options.record, "FILE", "Recorded motion instead of a pulse")
-        ->excludes("--period", "--pulse");
+        ->excludes("--period", "--pulse", "--shape");
     add_text(command, "--component", options.component, "NAME",
              "Name or number in the record; default: 1")
         ->needs("--record");
@@ -289,10 +291,12 @@ void add_assess_arguments(CLI::App& command, AssessOptions& options)
              "Peak ground acceleration over g of every motion; without it, only strengths")
         ->check(positive_up_to(largest_pga));
     add_text(command, "--pulse", options.pulse, "NAME", "Pulse; default: one_sine");
+    add_text(command, "--shape", options.shape, "FILE",
+             "Table of the pulse `table`: time over the period, value");
     add_text(command, "--record", options.records, "FILE",
              "Recorded motion, or a pattern of several, instead of a pulse; repeatable")
         ->allow_extra_args(false)
-        ->excludes("--period", "--pulse");
+        ->excludes("--period", "--pulse", "--shape");
     add_text(command, "--component", options.component, "NAME",
              "Name or number in the records; default: 1")
         ->needs("--record");

@@ -61,6 +61,7 @@ struct ToppleOptions {
     std::map<std::string, double> block; ///< quantities of the block, by name
     std::optional<double> direction;     ///< [degree]
     std::string pulse = "one_sine";      ///< its name
+    std::string shape;                   ///< path of its table; empty: none
     std::optional<double> period;        ///< of the pulse [s]
     std::string record;                  ///< path; empty: a pulse
     std::string component;               ///< of the record, its name or number
@@ -84,6 +85,7 @@ struct AssessOptions {
     std::vector<std::string> records;   ///< paths; empty: a pulse
     std::string component;              ///< of the records, its name or number
     std::string pulse = "one_sine";     ///< its name
+    std::string shape;                  ///< path of its table; empty: none
     std::vector<double> periods;        ///< of the pulse [s]
     std::vector<double> directions;     ///< [degree]
     std::optional<double> pga;          ///< over g [1]

@@ -22,6 +22,13 @@ inline std::string quoted_utf8(const std::string& text)
     return in_quotes(text);
 }
 
+/// The keys `pulse` and `shape` of [scene]; shape: the path of a table, or empty.
+inline std::string pulse_lines(const std::string& pulse, const std::string& shape)
+{
+    return fmt::format("pulse = {}\n{}", quoted_utf8(pulse),
+                       shape.empty() ? "" : fmt::format("shape = {}\n", quoted_utf8(shape)));
+}
+
 /// The key `component` of [scene]; empty without a component.
 inline std::string component_line(const std::string& component)
 {
@@ -38,7 +45,7 @@ inline void expect_keys_of_scene(const std::vector<std::string>& overrides)
 {
     for (const std::string& argument : overrides) {
         if (!argument.starts_with("scene.") || argument.starts_with("scene.pulse") ||
-            argument.starts_with("scene.record")) {
+            argument.starts_with("scene.shape") || argument.starts_with("scene.record")) {
             throw Error(exit_code::usage,
                         "--set takes keys of [scene] here, such as scene.gravity. The other "
                         "options give the block and the motion.");

@@ -36,7 +36,7 @@ std::string job_text(const ToppleOptions& options)
     const bool is_recorded = !options.record.empty();
     std::string text = "[scene]\n";
     text += is_recorded ? fmt::format("record = {}\n", quoted_utf8(options.record))
-                        : fmt::format("pulse = {}\n", quoted_utf8(options.pulse));
+                        : pulse_lines(options.pulse, options.shape);
     text += component_line(options.component);
     text += "[plane]\n";
     text += options.scale || (is_recorded && !options.pga)

@@ -47,9 +47,9 @@ void write_origin(hid_t file, const Job& job, FileKind kind)
                     "A. E. Charalampakis, G. C. Tsiatas, P. Tsopelas: Rocking of rigid blocks: "
                     "Analytical solution and exact energy-based overturning criteria");
     const Scene& scene = job.problem.scene;
-    if (const Pulse* pulse = scene.pulse()) {
-        write_attribute(file, "pulse", name_of(pulse->kind));
-        for (const auto& [name, value] : pulse->numbers()) {
+    if (const auto pulse = scene.named_pulse()) {
+        write_attribute(file, "pulse", pulse->name);
+        for (const auto& [name, value] : pulse->numbers) {
             write_attribute(file, std::string(name).c_str(), value);
         }
     } else {
@@ -71,6 +71,21 @@ void write_origin(hid_t file, const Job& job, FileKind kind)
     }
 }
 
+/// The rows as they are integrated.
+void add_shape(hid_t file, const ShapeTable& table)
+{
+    const StoredDimension rows{layout::in_run_group("shape_phase"), table.shape->samples()};
+    add_variable(
+        file, {rows.name, {rows}, table.shape->phases(), "phase of the rows of the pulse", "rad"});
+    add_variable(file,
+                 {layout::in_run_group("shape_value"),
+                  {rows},
+                  table.shape->horizontal(),
+                  "ground acceleration over its peak",
+                  "1",
+                  fmt::format("of the pulse; values of the table divided by {}", table.peak)});
+}
+
 void add_job(hid_t file, const Job& job)
 {
     using layout::in_run_group;
@@ -78,6 +93,9 @@ void add_job(hid_t file, const Job& job)
     add_text(file, in_run_group("job_overrides"), fmt::format("{}", fmt::join(job.overrides, "\n")),
              "overrides of the job file, one per line");
     add_text(file, in_run_group(layout::job_resolved), job.resolved, "job with all defaults");
+    if (job.shape) {
+        add_shape(file, *job.shape);
+    }
     std::string records;
     for (const RecordedMotion& motion : job.motions) {
         records += record_text(motion);

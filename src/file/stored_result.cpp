@@ -353,15 +353,21 @@ std::string line_around(std::string_view text, std::size_t begin, std::size_t pl
                        hidden + shown.size() < line.size() ? "..." : "");
 }
 
-/// The part of a line of a resolved job that names the file of a record; empty for other lines.
-std::string_view record_named_in(std::string_view line)
+/// The part of a line of a resolved job between two words; empty for other lines.
+std::string_view part_between(std::string_view before, std::string_view after,
+                              std::string_view line)
 {
-    constexpr std::string_view before = "{ file = ";
     const std::size_t begin = line.find(before);
-    const std::size_t end = line.find(", component = ");
+    const std::size_t end = line.find(after);
     return begin < end && end != line.npos
                ? line.substr(begin + before.size(), end - begin - before.size())
                : std::string_view();
+}
+
+/// The file of a record that a line of a resolved job names.
+std::string_view record_named_in(std::string_view line)
+{
+    return part_between("{ file = ", ", component = ", line);
 }
 
 /// The table of blocks, if a resolved job names it before a place in the lines about it.
@@ -400,8 +406,12 @@ std::string first_difference(std::string_view stored, std::string_view given)
                            "choose another name with -o.",
                            name_of(former), name_of(record));
     }
-    const std::string_view table = table_named_before(given, place);
-    if (!table.empty() && table == table_named_before(stored, place)) {
+    const auto table_of = [&](std::string_view job) {
+        const auto shape = part_between("shape = { file = ", ", rows = ", line_of(job));
+        return shape.empty() ? table_named_before(job, place) : shape;
+    };
+    const std::string_view table = table_of(given);
+    if (table.size() > std::string_view("\"\"").size() && table == table_of(stored)) {
         return fmt::format("the table {} has changed since then. {}", table, restore);
     }
     return fmt::format(

@@ -42,13 +42,22 @@ std::string motion_text(const RecordedMotion& motion)
         in_quotes(motion.checksum));
 }
 
+std::string shape_text(const ShapeTable& table)
+{
+    return fmt::format(
+        "shape = {{ file = {}, rows = {}, periods = {}, peak = {}, checksum = {} }}\n",
+        in_quotes(table.file), table.shape->samples(), float_text(table.periods),
+        float_text(table.peak), in_quotes(table.checksum));
+}
+
 std::string scene_text(const Job& job)
 {
     const Scene& scene = job.problem.scene;
     std::string text = "[scene]\n";
-    const Pulse* pulse = scene.pulse();
-    if (pulse != nullptr) {
-        text += fmt::format("pulse = \"{}\"\n", name_of(pulse->kind));
+    const auto pulse = scene.named_pulse();
+    if (pulse) {
+        text += fmt::format("pulse = \"{}\"\n", pulse->name);
+        text += job.shape ? shape_text(*job.shape) : "";
     } else {
         const std::vector<std::string> motions = mapped(job.motions, motion_text);
         const bool is_suite = job.problem.grid.dimension_of(Role::motion).has_value();
@@ -63,8 +72,8 @@ std::string scene_text(const Job& job)
         Coordinates(scene, job.problem.grid).has("frequency_parameter")) {
         text += fmt::format("gravity = {}\n", float_text(scene.gravity));
     }
-    if (pulse != nullptr) {
-        for (const auto& [name, value] : pulse->numbers()) {
+    if (pulse) {
+        for (const auto& [name, value] : pulse->numbers) {
             text += fmt::format("{} = {}\n", name, float_text(value));
         }
     }

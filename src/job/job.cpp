@@ -32,7 +32,33 @@ PulseShape read_shape(const Entry& scene, PulseKind pulse)
     return shape;
 }
 
-/// Reads [scene], without its records.
+/// Reads the pulse of [scene], without the table of its shape.
+Motion read_pulse(const Entry& scene)
+{
+    const Entry pulse =
+        require(scene, "pulse",
+                fmt::format("Give one of {}; or record, the path of a recorded ground motion.",
+                            fmt::join(pulse_names, ", ")));
+    const std::size_t number = index_of_name(pulse, pulse_names);
+    const auto shape = find(scene, "shape");
+    if (number < pulses.size()) {
+        if (shape) {
+            refuse(*shape, "{}", refusal_of_key(pulse_names[number], TabulatedPulse::name));
+        }
+        return Pulse{PulseKind(number), read_shape(scene, PulseKind(number))};
+    }
+    require(scene, "shape",
+            "Give the path of a table of two columns, time over the period and value; or a list of "
+            "[time, value].");
+    for (const auto& [name, of_others] : shape_numbers) {
+        if (const auto entry = find(scene, name)) {
+            refuse(*entry, "{}", refusal_of_key(TabulatedPulse::name, pulses_with(of_others)));
+        }
+    }
+    return TabulatedPulse();
+}
+
+/// Reads [scene], without its records and tables.
 Scene read_scene(const Entry& job)
 {
     require(job, "scene", "Add [scene] with a pulse or a record.");
@@ -53,12 +79,7 @@ Scene read_scene(const Entry& job)
     if (is_recorded) {
         scene.motion = Suite();
     } else {
-        const Entry pulse =
-            require(entry, "pulse",
-                    fmt::format("Give one of {}; or record, the path of a recorded ground motion.",
-                                fmt::join(names_of<PulseKind>, ", ")));
-        const auto kind = choice_of<PulseKind>(pulse);
-        scene.motion = Pulse{kind, read_shape(entry, kind)};
+        scene.motion = read_pulse(entry);
     }
     return scene;
 }
@@ -71,7 +92,8 @@ Numerics read_numerics(const Entry& job, const MotionTraits& motion)
     numerics.method = choice_of(entry, "method", motion.method);
     if (numerics.method != motion.method && !motion.has_other_methods) {
         refuse(*find(entry, "method"),
-               " = \"{}\" is for pulses only. Under a record, use \"taylor\", the default.",
+               " = \"{}\" is for pulses that have a formula. Under a record or a table, use "
+               "\"taylor\", the default.",
                name_of(numerics.method));
     }
     numerics.resolve = boolean_of(entry, "resolve", numerics.resolve);
@@ -265,6 +287,10 @@ Job read_job_text(std::string text, const std::string& name,
     if (auto* suite = std::get_if<Suite>(&problem.scene.motion)) {
         job.motions = read_motions(scene, folder, problem.scene.gravity);
         suite->records = mapped(job.motions, &RecordedMotion::record);
+    }
+    if (auto* pulse = std::get_if<TabulatedPulse>(&problem.scene.motion)) {
+        job.shape = read_shape_table(scene, folder);
+        pulse->shape = job.shape->shape;
     }
     problem.scene.motion_of = read_motion_of(scene, job.motions);
     problem.numerics = read_numerics(entry, problem.scene.motion_traits());

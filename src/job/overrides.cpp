@@ -130,15 +130,19 @@ void drop_keys(toml::table& job, const Path& path, const toml::table& given)
         drop_coordinates(job, path,
                          [&](const Quantity& other) { return !other.applies_under(motion); });
     }
-    const auto pulse =
-        enumerator_named<PulseKind>(given["scene"]["pulse"].value_or<std::string_view>(""));
+    const auto name = given["scene"]["pulse"].value_or<std::string_view>("");
+    const auto pulse = enumerator_named<PulseKind>(name);
+    const bool is_table = name == TabulatedPulse::name;
     for (const auto& [number, member] : shape_numbers) {
-        if (pulse && !has_number(*pulse, member)) {
+        if (is_table || (pulse && !has_number(*pulse, member))) {
             erase(job, "scene", number);
         }
     }
     if (path == Path{"numerics", "fill"} && !given["numerics"]["fill"].value_or(true)) {
         erase(job, "numerics", "audit");
+    }
+    if (pulse) {
+        erase(job, "scene", "shape");
     }
     if (path[0] == "blocks") {
         // Other keys that a column contradicts are dropped when the table has been read.

@@ -65,16 +65,6 @@ std::string label_of(const RecordFile& file, const RecordComponent& component)
                : component.name;
 }
 
-std::string checksum_of(const Accelerogram& record)
-{
-    std::uint64_t hash = 0;
-    for (const std::vector<double>* values :
-         {&record.horizontal(), &record.upwards(), &record.second()}) {
-        hash = XXH64(values->data(), values->size() * sizeof(double), hash);
-    }
-    return fmt::format("{:016x}", hash);
-}
-
 /// The text as a pattern that matches only itself.
 std::string literally(std::string_view text)
 {
@@ -285,7 +275,7 @@ RecordedMotion read_motion(std::size_t number, const GivenRecord& given, const R
         .measures = intensity_measures(record->horizontal(), record->time_step(), reading.gravity),
         .stated_motion_of = stated_motion_of({horizontal, second, vertical}),
         .ground_pga = horizontal.ground_pga,
-        .checksum = checksum_of(*record),
+        .checksum = checksum_of({&record->horizontal(), &record->upwards(), &record->second()}),
         .record = record};
     if (!(motion.measures.pga > 0)) {
         refuse(given.entry, " = {} is zero at all times. Remove it.", in_quotes(given.file));
@@ -347,6 +337,15 @@ void shorten_names(std::vector<RecordedMotion>& motions)
 }
 
 } // namespace
+
+std::string checksum_of(std::initializer_list<const std::vector<double>*> lists)
+{
+    std::uint64_t hash = 0;
+    for (const std::vector<double>* values : lists) {
+        hash = XXH64(values->data(), values->size() * sizeof(double), hash);
+    }
+    return fmt::format("{:016x}", hash);
+}
 
 std::vector<RecordedMotion> read_motions(const Entry& scene, const std::string& folder,
                                          double gravity)

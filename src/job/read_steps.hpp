@@ -6,6 +6,10 @@
 #include "overturn/problem/given.hpp"
 #include "toml_reading.hpp"
 
+#include <initializer_list>
+#include <string>
+#include <vector>
+
 namespace overturn {
 
 /// Overrides a key of the job by `key.path=value` (TOML; a bare word is a string). Keys that it
@@ -17,6 +21,12 @@ void apply_override(toml::table& job, const std::string& argument);
 /// Reads scene.record and the keys that belong to it. folder: of the job file; gravity [m/s2].
 std::vector<RecordedMotion> read_motions(const Entry& scene, const std::string& folder,
                                          double gravity);
+
+/// Reads scene.shape, the table of a pulse. folder: of the job file.
+ShapeTable read_shape_table(const Entry& scene, const std::string& folder);
+
+/// The XXH64 of lists of numbers, in hexadecimal digits.
+std::string checksum_of(std::initializer_list<const std::vector<double>*> lists);
 
 /// Whose motion it is: as scene.motion_of says, or the files of the records do.
 MotionOf read_motion_of(const Entry& scene, const std::vector<RecordedMotion>& motions);

@@ -48,7 +48,10 @@ std::vector<Key> keys_with_one_value()
         {"", "output", always, table_type, "", "what is stored"},
         {"", "boundary", always, table_type, "", "what overturn boundary searches"},
         {"scene", "pulse", pulse, "string", "required without a record",
-         "the ground motion", words(names_of<PulseKind>)},
+         "the ground motion", words(pulse_names)},
+        {"scene", "shape", pulse, "string or list", "required for table",
+         "path of a table of times over the period and values, relative to the job file, or a list "
+         "of [time, value]"},
         {"scene", "window", pulse, "number", number_text(PulseShape().window),
          "half width in pulse periods; only for " + pulses_with(&PulseShape::window)},
         {"scene", "cycles", pulse, "number", needed_for(&PulseShape::cycles),
@@ -80,7 +83,8 @@ std::vector<Key> keys_with_one_value()
         {"blocks", "table", always, "string", "",
          "path of a table of comma-separated values, whose columns are coordinates"},
         {"numerics", "method", always, "string",
-         fmt::format("\"{}\"; under a record \"{}\", the only choice", name_of(numerics.method),
+         fmt::format("\"{}\"; under a record or a table \"{}\", the only choice",
+                     name_of(numerics.method),
                      name_of(Method::taylor)),
          "Dormand-Prince 5(4), or Taylor series of order 14 (at a tolerance above 2e-7) or 20; "
          "under a record, of order 8", words(names_of<Method>)},

@@ -35,6 +35,24 @@ Accelerogram::Accelerogram(std::vector<double> horizontal, std::vector<double> u
     }
 }
 
+Accelerogram Accelerogram::of_pulse(std::vector<double> phases, std::vector<double> shape)
+{
+    Accelerogram pulse(std::move(shape), {}, 0);
+    pulse.phases_ = std::move(phases);
+    return pulse;
+}
+
+std::int64_t Accelerogram::sample_before(double phase) const
+{
+    const auto inner = std::upper_bound(phases_.begin() + 1, phases_.end() - 1, phase);
+    return inner - phases_.begin() - 1;
+}
+
+std::int64_t Accelerogram::sample_after(double phase) const
+{
+    return std::lower_bound(phases_.begin(), phases_.end(), phase) - phases_.begin();
+}
+
 Accelerogram Accelerogram::in_direction(double degrees) const
 {
     const double sign = degrees < 180 ? 1 : -1;

@@ -39,8 +39,8 @@ Record directed_record(const Scene& scene, const Point& point)
 double pga_of_unit(const Scene& scene, const Point& point)
 {
     const double least = std::min(point.block.slenderness, point.block.other.slenderness);
-    return scene.pulse() != nullptr ? uplift_threshold(scene.theory, least)
-                                    : directed_record(scene, point)->peak();
+    return scene.is_under(Under::pulse) ? uplift_threshold(scene.theory, least)
+                                        : directed_record(scene, point)->peak();
 }
 
 double free_fall_amplitude(const Scene& scene, const Point& point)
@@ -86,7 +86,7 @@ double lifting_pga(const Scene& scene, const Point& point)
     };
     const Block<double>& block = point.block;
     const auto plus = sliding_side(block, point.gyration, point.friction);
-    if (scene.pulse() != nullptr && block.is_symmetric()) {
+    if (scene.is_under(Under::pulse) && block.is_symmetric()) {
         return threshold(block, plus);
     }
     return pga_at({threshold(block, plus), threshold(block.other, plus.turned())}, scene, point);

@@ -368,7 +368,7 @@ Grid corners_of(const Grid& grid)
 
 std::vector<Extent> scales_of(const Scene& scene, const Grid& grid)
 {
-    if (scene.records().empty()) {
+    if (!scene.is_under(Under::record)) {
         return {};
     }
     const Grid corners = corners_of(grid);

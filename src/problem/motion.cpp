@@ -20,23 +20,27 @@ std::string_view name_of(ShapeNumber number)
 
 } // namespace
 
-std::vector<std::pair<std::string_view, double>> Pulse::numbers() const
+std::optional<NamedPulse> Pulse::named() const
 {
-    std::vector<std::pair<std::string_view, double>> numbers;
+    NamedPulse named{name_of(kind), {}};
     for (const auto& [name, number] : shape_numbers) {
         if (has_number(kind, number)) {
-            numbers.emplace_back(name, shape.*number);
+            named.numbers.emplace_back(name, shape.*number);
         }
     }
-    return numbers;
+    return named;
+}
+
+std::string refusal_of_key(std::string_view pulse, std::string_view others)
+{
+    return fmt::format(" has no meaning for the pulse \"{}\", only for {}. Remove it.", pulse,
+                       others);
 }
 
 std::string refusal_of(PulseKind pulse, ShapeNumber number, std::optional<double> value)
 {
     if (!has_number(pulse, number)) {
-        return value ? fmt::format(" has no meaning for the pulse \"{}\", only for {}. Remove it.",
-                                   name_of(pulse), pulses_with(number))
-                     : "";
+        return value ? refusal_of_key(name_of(pulse), pulses_with(number)) : "";
     }
     const Quantity& rule = quantity(name_of(number));
     if (!value) {

@@ -146,13 +146,13 @@ std::string text_of(const Findings& findings)
     return fmt::format("{}", fmt::join(different, "; "));
 }
 
-void judge_records(std::span<const Record> records, Findings& findings)
+void judge_records(const Scene& scene, Findings& findings)
 {
-    if (records.empty()) {
+    if (!scene.is_under(Under::record)) {
         return;
     }
     std::vector<double> peaks, time_steps, means;
-    for (const auto& record : records) {
+    for (const auto& record : scene.records()) {
         for (const auto* component :
              {&record->horizontal(), &record->second(), &record->upwards()}) {
             if (!component->empty()) {
@@ -251,7 +251,7 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
                               amplitude.text("")));
     }
     judge(acceleration, "pga", scene.motion_traits().amplitude);
-    judge_records(scene.records(), findings);
+    judge_records(scene, findings);
     findings.push_back(finding_about_restitution(coordinates, grid.table() != nullptr));
     judge_directions(grid, coordinates, findings);
     return scene.worded(text_of(findings));

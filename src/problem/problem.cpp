@@ -163,8 +163,8 @@ std::string reason_not_to_fill(const Problem& problem)
     if (problem.grid.may_slip()) {
         return "where blocks slip, regions have other boundaries";
     }
-    if (problem.scene.motion_traits().is_sensitive) {
-        return "under a record regions have no simple boundaries";
+    if (const auto reason = problem.scene.motion_traits().reason_not_to_fill; !reason.empty()) {
+        return std::string(reason);
     }
     if (problem.grid.table() != nullptr) {
         return "the blocks of a list have no neighbours";

@@ -108,12 +108,24 @@ struct Archive {
     }
     void transfer(Suite& suite) { transfer(suite.records); }
 
+    void transfer(TabulatedPulse& pulse)
+    {
+        std::vector<double> phases, shape;
+        if (!is_input) {
+            phases = pulse.shape->phases();
+            shape = pulse.shape->horizontal();
+        }
+        transfer_all(phases, shape);
+        pulse.shape = std::make_shared<const Accelerogram>(
+            Accelerogram::of_pulse(std::move(phases), std::move(shape)));
+    }
+
     void transfer(Motion& motion)
     {
         std::size_t kind = motion.index();
         transfer(kind);
         if (is_input) {
-            motion = std::array<Motion, 2>{Pulse(), Suite()}[kind];
+            motion = std::array<Motion, 3>{Pulse(), Suite(), TabulatedPulse()}[kind];
         }
         std::visit([&](auto& of_kind) { transfer(of_kind); }, motion);
     }

@@ -28,7 +28,7 @@ Numerics numerics_of_search(const Scene& scene, const Point& point)
 {
     const bool may_slip = std::isfinite(point.friction);
     Numerics numerics;
-    numerics.method = scene.pulse() != nullptr ? Method::rk45 : Method::taylor;
+    numerics.method = scene.motion_traits().method;
     numerics.resolve = !may_slip;
     numerics.tolerance = may_slip ? numerics.tolerance : tolerance_to_resolve_from;
     return numerics;

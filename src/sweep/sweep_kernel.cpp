@@ -141,13 +141,11 @@ struct PackPoints {
     template <Theory theory, Directions directions>
     RecordExcitation<T, directions> record_excitation(const Block<T>& blocks) const
     {
-        return {.motion = record_motion<S>(*task.record),
-                .acceleration =
-                    select<T>(load<T>(spare) == T(0.0),
-                              gathered([&](int i) { return task.points[i].amplitude; }), T(0.0)),
-                .frequency = gathered([&](int i) { return task.points[i].frequency; }),
-                .to_plus = Equations<theory>::uplift_acceleration(blocks),
-                .to_minus = Equations<theory>::uplift_acceleration(blocks.other)};
+        return overturn::record_excitation<theory, directions>(
+            *task.record, blocks,
+            select<T>(load<T>(spare) == T(0.0),
+                      gathered([&](int i) { return task.points[i].amplitude; }), T(0.0)),
+            gathered([&](int i) { return task.points[i].frequency; }));
     }
 
     /// N: T, as a parameter because kernels for records do not compile this.

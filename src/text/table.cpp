@@ -16,9 +16,12 @@ namespace {
 /// A cursor over the values of a table.
 class Values {
 public:
-    Values(std::string_view text, const std::string& name)
-        : rest_(text), name_(&name), separator_(separator_in(text.substr(0, text.find('\n'))))
-    {}
+    Values(std::string_view text, const std::string& name, bool has_comments)
+        : rest_(text), name_(&name), has_comments_(has_comments)
+    {
+        skip_comments();
+        separator_ = separator_in(rest_.substr(0, rest_.find('\n')));
+    }
 
     char separator() const { return separator_; }
 
@@ -44,6 +47,9 @@ public:
         ends_row_ = !rest_.starts_with(separator_);
         next_line_ += ends_row_ ? 1 : 0;
         rest_.remove_prefix(std::min<std::size_t>(rest_.starts_with("\r\n") ? 2 : 1, rest_.size()));
+        if (ends_row_) {
+            skip_comments();
+        }
         return value;
     }
 
@@ -63,6 +69,14 @@ public:
     }
 
 private:
+    void skip_comments()
+    {
+        while (has_comments_ && rest_.starts_with('#')) {
+            rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size() - 1) + 1);
+            ++next_line_;
+        }
+    }
+
     std::string_view plain_value()
     {
         std::string_view value =
@@ -112,6 +126,7 @@ private:
 
     std::string_view rest_;
     const std::string* name_;
+    bool has_comments_;
     char separator_;
     std::string unquoted_;
     std::int64_t line_ = 1;
@@ -219,14 +234,44 @@ const TableColumn* Table::find(std::string_view name) const
     return found == columns.end() ? nullptr : &*found;
 }
 
-Table read_table(std::string_view text, const std::string& name, std::string_view text_column)
+namespace {
+
+/// Passes the names of known columns, unless the first line is a row of numbers.
+std::vector<TableColumn> columns_named(const std::vector<std::string_view>& names, Values& values)
+{
+    Values behind_names = values;
+    Numbers numbers(values.separator());
+    std::size_t size = 0;
+    bool is_row = true;
+    do {
+        is_row = numbers.in(behind_names.next(), behind_names) && is_row;
+        ++size;
+    } while (!behind_names.ends_row());
+    if (size != names.size()) {
+        values.next();
+        values.refuse("the line has {} {}, but the table has {} columns: {}. Separate them by "
+                      "commas, semicolons or tabs.",
+                      size, noun_of(size, "columns"), names.size(), fmt::join(names, ", "));
+    }
+    values = is_row ? values : behind_names;
+    std::vector<TableColumn> columns;
+    for (const std::string_view name : names) {
+        columns.push_back({std::string(name), {}, {}});
+    }
+    return columns;
+}
+
+/// names: of known columns; empty: those of the first line.
+Table read_columns(std::string_view text, const std::string& name, std::string_view text_column,
+                   const std::vector<std::string_view>& names)
 {
     text = without_byte_order_mark(text);
     text = text.substr(0, text.find_last_not_of("\r\n") + 1);
-    Values values(text, name);
+    Values values(text, name, !names.empty());
     if (text.empty()) {
-        values.refuse_row(1, "the file is empty. The first line names the columns, such as "
-                             "width,height,restitution.");
+        values.refuse_row(1, names.empty() ? "the file is empty. The first line names the columns, "
+                                             "such as width,height,restitution."
+                                           : "the file is empty.");
     }
     if (text.find('\0') != text.npos) {
         throw Error(exit_code::job,
@@ -235,7 +280,7 @@ Table read_table(std::string_view text, const std::string& name, std::string_vie
                     name);
     }
     Table table;
-    table.columns = read_names(values);
+    table.columns = names.empty() ? read_names(values) : columns_named(names, values);
     for (TableColumn& column : table.columns) {
         column.first_text = column.name == text_column ? 0 : column.first_text;
     }
@@ -257,7 +302,9 @@ Table read_table(std::string_view text, const std::string& name, std::string_vie
                        }
                    });
     if (table.lines.empty()) {
-        values.refuse_row(2, "the table has no rows. Add a line of values for each block.");
+        values.refuse_row(2, names.empty()
+                                 ? "the table has no rows. Add a line of values for each block."
+                                 : "the table has no rows. Add lines of numbers.");
     }
     const auto is_text = [](const TableColumn& column) { return column.first_text >= 0; };
     if (std::any_of(table.columns.begin(), table.columns.end(), is_text)) {
@@ -269,6 +316,19 @@ Table read_table(std::string_view text, const std::string& name, std::string_vie
                        });
     }
     return table;
+}
+
+} // namespace
+
+Table read_table(std::string_view text, const std::string& name, std::string_view text_column)
+{
+    return read_columns(text, name, text_column, {});
+}
+
+Table read_table_of(const std::vector<std::string_view>& columns, std::string_view text,
+                    const std::string& name)
+{
+    return read_columns(text, name, "", columns);
 }
 
 } // namespace overturn

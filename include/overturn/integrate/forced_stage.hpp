@@ -245,7 +245,8 @@ private:
                 const auto push = estimate_of(excitation_.ground(phase));
                 contact_->pass_rest(demand_of(force_at_rest(side, push, push)), at);
             };
-            for (T phase = first; any<T>(lanes && phase < last); phase = floor(phase) + 1) {
+            for (T phase = first; any<T>(lanes && phase < last);
+                 phase = excitation_.motion.end_of_piece(phase)) {
                 observe(phase, lanes && phase < last);
             }
             observe(last, lanes);

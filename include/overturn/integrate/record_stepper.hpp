@@ -1,6 +1,7 @@
-// Integrates the motion of a rocking block (Eq. 47) under a record by Taylor series. The intervals
-// between samples are short: a step nearly always spans what is left of one. An event is a root of
-// the series and ends the step. No step is repeated.
+// Integrates the motion of a rocking block (Eq. 47) under a record, or a pulse that is given by a
+// table, by Taylor series. The intervals between samples of a record are short: a step nearly
+// always spans what is left of one. An event is a root of the series and ends the step. No step is
+// repeated.
 #pragma once
 
 #include "overturn/integrate/first_event.hpp"
@@ -52,8 +53,8 @@ public:
         // exceed its bound, in which round-off is random.
         const T fastest = power_of_two_below(select<T>(frequency > 1, frequency, 1));
         time_ = {1 / fastest, fastest};
-        samples_per_unit_ = frequency * time_.unit;
-        units_per_sample_ = 1 / samples_per_unit_;
+        phase_per_unit_ = frequency * time_.unit;
+        units_per_phase_ = 1 / phase_per_unit_;
         most_allowed_ = estimate_of(tolerance_ * side_.slenderness * time_.unit);
     }
 
@@ -63,13 +64,14 @@ public:
     auto step(const Rocking<T>& now, const Mask& active, [[maybe_unused]] const auto& so_far,
               [[maybe_unused]] const auto& observe) const
     {
-        const T end_of_piece = excitation_.motion.end_of_piece(now.phase);
-        const auto push = excitation_.template series<1>(now.side * excitation_.acceleration,
-                                                         now.phase, samples_per_unit_);
+        const auto piece = excitation_.motion.piece_at(now.phase);
+        const T& end_of_piece = piece.end;
+        const auto push = excitation_.push_on(piece, now.side * excitation_.acceleration, now.phase,
+                                              phase_per_unit_);
         const auto known = Equations<theory>::template series<known_order>(
             side_, now.tilt, now.rate * time_.unit, push, time_.unit);
         decltype(auto) series = leading<order>(known);
-        const T left = (end_of_piece - now.phase) * units_per_sample_;
+        const T left = (end_of_piece - now.phase) * units_per_phase_;
         T h = longest_step(now, series, left, active);
         const Mask none = active && !active;
         const StepBounds<T> bounds = bounds_over(series, push, h);
@@ -77,7 +79,7 @@ public:
         const T tilt = value_of_series(series.tilt, h);
         const T rate = value_of_series(series.rate, h);
         StepEnd<T, outputs> end;
-        end.phase = select<T>(h == left, end_of_piece, now.phase + h * samples_per_unit_);
+        end.phase = select<T>(h == left, end_of_piece, now.phase + h * phase_per_unit_);
         end.tilt = select<T>(tilt < 0, 0, tilt);
         end.rate = rate * time_.per_time;
         end.moved = active;
@@ -88,7 +90,7 @@ public:
             const StepEvent<T> event =
                 first_event_within(series, bounds, {h, T(0), tilt, rate, none, none}, suspect);
             h = event.time;
-            const T phase = now.phase + (h + event.delay) * samples_per_unit_;
+            const T phase = now.phase + (h + event.delay) * phase_per_unit_;
             end.phase = select<T>(h == left && !event.happens(), end_of_piece,
                                   lesser<T>(phase, end_of_piece));
             end.tilt = select<T>(event.tilt < 0, 0, event.tilt);
@@ -126,7 +128,7 @@ private:
                        const auto& end) const
     {
         const E per_unit = estimate_of(time_.per_time);
-        const E length = estimate_of((end.phase - now.phase) * units_per_sample_);
+        const E length = estimate_of((end.phase - now.phase) * units_per_phase_);
         const auto moving = [pushes = estimate_of(push), per_unit](const E& tilt, const E& rate,
                                                                    const E& time) {
             const auto ground = pushes.at(time);
@@ -160,7 +162,8 @@ private:
         const E speed = estimate_of(abs(now.rate));
         const E at_start = tolerance * estimate_of(time_.unit) * (estimate_of(now.tilt) + speed);
         const auto size_of = [&](int k) -> E { return abs(estimate_of(series.rate[k])); };
-        // From rest the rate grows to rate[1] h + rate[2] h^2, and h <= 1.
+        // From rest the rate grows to rate[1] h + rate[2] h^2. This is larger than what follows if
+        // h <= 1; otherwise tilt and rate are at least half of it.
         const E growth = tolerance * (size_of(1) + size_of(2));
         T length = left;
         while (true) {
@@ -312,9 +315,9 @@ private:
     BlockSide<T> side_;
     Excitation excitation_;
     const T tolerance_;
-    TimeUnit<T> time_; // a power of two: 1/p, or about a sample if that is shorter
-    T samples_per_unit_;
-    T units_per_sample_;
+    TimeUnit<T> time_; // a power of two: 1/p, or about the phase 1 if that is shorter
+    T phase_per_unit_;
+    T units_per_phase_;
     E most_allowed_;
     [[no_unique_address]] OnlyIf<outputs.error, TaylorErrors<order, theory, T>> errors_;
 };

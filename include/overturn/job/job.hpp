@@ -29,6 +29,15 @@ struct RecordedMotion {
     std::shared_ptr<const Accelerogram> record;
 };
 
+/// Where the shape of a pulse comes from.
+struct ShapeTable {
+    std::string file;     ///< path as the job spells it; empty if the job has the values itself
+    double peak;          ///< the largest |value|, by which the values were divided
+    double periods;       ///< from the first to the last row
+    std::string checksum; ///< XXH64 of the phases and accelerations, in hexadecimal digits
+    std::shared_ptr<const Accelerogram> shape;
+};
+
 /// The table of the blocks of a job.
 struct BlockTable {
     std::string file;     ///< path as the job spells it
@@ -41,6 +50,7 @@ struct Job {
     Problem problem;
     std::vector<RecordedMotion> motions; ///< those of scene.records, in order; empty: a pulse
     const Quantity* along = nullptr;     ///< of boundary_of(); nullptr: the strength
+    std::optional<ShapeTable> shape;     ///< of a pulse that is given by a table
     std::optional<BlockTable> blocks;    ///< of which the grid has the columns that describe points
 
     std::string given;                  ///< the job file, byte for byte
@@ -55,8 +65,8 @@ Job read_job(const std::string& path, const std::vector<std::string>& overrides 
 /// The name of a job whose text is made from options. Messages do not state its lines.
 inline constexpr const char* command_line = "the command line";
 
-/// The same for a text; `name` replaces the path in messages. Records are searched for in
-/// its folder.
+/// The same for a text; `name` replaces the path in messages. Records and tables are searched for
+/// in its folder.
 Job read_job_text(std::string text, const std::string& name,
                   const std::vector<std::string>& overrides = {});
 

@@ -1,5 +1,6 @@
-// A recorded ground motion: accelerations at evenly spaced times, linear in between. The first is
-// at t = 0; the ground is at rest before and after.
+// A ground motion that is given by samples: accelerations at evenly spaced times, as recorded, or
+// the shape of a pulse at phases of its own; linear in between. The first sample is at t = 0; the
+// ground is at rest before and after.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +21,10 @@ public:
     Accelerogram(std::vector<double> horizontal, std::vector<double> upwards, double time_step,
                  std::vector<double> second = {});
 
+    /// The shape of a pulse, with the peak 1, at ascending phases that begin with 0 [rad]; at least
+    /// two. It has no time step.
+    static Accelerogram of_pulse(std::vector<double> phases, std::vector<double> shape);
+
     /// The motion in a direction psi [degree], without a second component: a1 cos psi + a2 sin psi
     /// of the horizontal component a1 and the second one a2. That of psi + 180 is its mirror image,
     /// bit by bit.
@@ -29,6 +34,7 @@ public:
     const std::vector<double>& second() const { return second_; }
     const std::vector<double>& upwards() const { return upwards_; }
     double time_step() const { return time_step_; }
+    const std::vector<double>& phases() const { return phases_; } ///< empty: evenly spaced in time
     std::int64_t samples() const { return std::int64_t(horizontal_.size()); }
 
     /// The largest |horizontal| and |upwards| acceleration [1].
@@ -54,8 +60,14 @@ public:
     std::int64_t first_lifting(std::int64_t first, double scale,
                                const UpliftThresholds& thresholds) const;
 
+    /// Among the phases of its own, which must exist: the number of the last sample at or before a
+    /// phase, except that it is never the last sample nor below 0; of the first sample at or after
+    /// it, which is samples() behind the end.
+    std::int64_t sample_before(double phase) const;
+    std::int64_t sample_after(double phase) const;
+
 private:
-    std::vector<double> horizontal_, upwards_, second_;
+    std::vector<double> phases_, horizontal_, upwards_, second_;
     double time_step_;
     double upwards_peak_ = 0;
     // Suffix maxima of |horizontal| and of -upwards.

@@ -155,11 +155,13 @@ std::optional<LowBounces> bound_of_low_bounces(const Block<double>& block, const
     return LowBounces{bounds.tilt, rate};
 }
 
+inline constexpr double step_of_pulse = std::numbers::pi / (1 << 12); // [rad]
+
 template <Theory theory>
 std::optional<LowBounces> bound_of_low_bounces(const Block<double>& block,
                                                const PulseExcitation<double>& excitation)
 {
-    constexpr double step = std::numbers::pi / (1 << 12);
+    const double step = step_of_pulse;
     const double between =
         excitation.motion.largest_curvature() / 8 * step * step * excitation.largest_acceleration();
     return bound_of_low_bounces<theory>(block, excitation, step, between);
@@ -174,7 +176,7 @@ bound_of_low_bounces(const Block<double>& block,
     if (!excitation.motion.record->upwards().empty()) {
         return std::nullopt;
     }
-    constexpr double step = 0.125; // [samples]
+    const double step = excitation.motion.phases != nullptr ? step_of_pulse : 0.125; // [samples]
     return bound_of_low_bounces<theory>(block, excitation, step, 0.0);
 }
 

@@ -1,5 +1,6 @@
-// The excitation of one block by a recorded ground motion, dimensionless. The phase is the time in
-// samples of the record; each interval between two samples is a smooth piece.
+// The excitation of one block by a ground motion that is given by samples, dimensionless. The phase
+// of a record is the time in samples; the shape of a pulse has phases of its own [rad]. Each
+// interval between two samples is a smooth piece.
 #pragma once
 
 #include "overturn/mechanics/accelerogram.hpp"
@@ -9,29 +10,62 @@
 
 namespace overturn {
 
+/// The interval between two samples.
+template <Number T>
+struct RecordPiece {
+    T sample; ///< the number of the first one
+    T begin;  ///< phases
+    T end;
+};
+
 /// A record over its phase. The record must outlive it. S: the type of one lane.
 template <class S>
 struct RecordMotion {
     const Accelerogram* record;
-    S begin; ///< phases at which the ground motion begins and ends [samples]
+    const double* phases; ///< of the samples [rad]; null: their numbers
+    S begin;              ///< phases at which the ground motion begins and ends
     S end;
+    S intervals; ///< the number of smooth pieces
 
-    /// The number of smooth pieces.
-    S pieces() const { return end; }
+    S pieces() const { return intervals; }
 
-    /// The number of the sample at or before the phase; never the last one. 0 for NaN.
+    /// The interval that contains or begins at the phase, the first or last one if none does. No
+    /// step may cross its end.
     template <Number T>
-    T sample_before(const T& phase) const
+    RecordPiece<T> piece_at(const T& phase) const
     {
+        if (phases != nullptr) [[unlikely]] {
+            return own_piece_at(phase);
+        }
         const T last(end - S(1));
-        return lesser<T>(greater<T>(T(floor(phase)), T(begin)), last);
+        const T before = lesser<T>(greater<T>(T(floor(phase)), T(begin)), last);
+        return {before, before, before + T(1)};
     }
 
-    /// The end of the interval that contains the phase [samples]. No step may cross it.
     template <Number T>
     T end_of_piece(const T& phase) const
     {
-        return sample_before(phase) + T(1);
+        return piece_at(phase).end;
+    }
+
+    /// The number of the first sample at the phase or later.
+    template <Number T>
+    T sample_after(const T& phase) const
+    {
+        return phases == nullptr
+                   ? T(ceil(phase))
+                   : number_of<T>(phase, [&](double at) { return record->sample_after(at); });
+    }
+
+    /// The phase at a share of the interval that begins at a sample.
+    template <Number T>
+    T phase_after(const T& sample, const T& share) const
+    {
+        if (phases == nullptr) {
+            return sample + share;
+        }
+        const auto [first, last] = gathered_pair<T>(phases, sample);
+        return lesser<T>(first + share * (last - first), last);
     }
 
     /// Per lane: whether the accelerations have no extremum between these phases.
@@ -40,13 +74,41 @@ struct RecordMotion {
     {
         return last <= end_of_piece(first);
     }
+
+private:
+    /// With more digits, a phase that is below that of a sample by less than a double resolves is
+    /// in the interval that begins there; what follows from that is far below any error bound.
+    template <Number T>
+    [[gnu::noinline]] RecordPiece<T> own_piece_at(const T& phase) const
+    {
+        const T sample = number_of<T>(phase, [&](double at) { return record->sample_before(at); });
+        const auto [first, last] = gathered_pair<T>(phases, sample);
+        return {sample, first, last};
+    }
+
+    /// Lane by lane.
+    template <Number T, class NumberAt>
+    static T number_of(const T& phase, const NumberAt& number_at)
+    {
+        auto lanes = lanes_of(phase);
+        for (auto& lane : lanes) {
+            lane = scalar_t<T>(number_at(double(lane)));
+        }
+        return load<T>(lanes.data());
+    }
 };
 
 /// Always inlined: kernels must not define functions that the rest of the program may use.
 template <class S>
 [[gnu::always_inline]] inline RecordMotion<S> record_motion(const Accelerogram& record)
 {
-    return {.record = &record, .begin = S(0), .end = S(record.samples() - 1)};
+    const std::vector<double>& phases = record.phases();
+    const auto intervals = S(record.samples() - 1);
+    return {.record = &record,
+            .phases = phases.empty() ? nullptr : phases.data(),
+            .begin = S(0),
+            .end = phases.empty() ? intervals : S(phases.back()),
+            .intervals = intervals};
 }
 
 /// The directions in which the ground may move. Without a vertical motion, `horizontal` is faster.
@@ -58,26 +120,34 @@ struct RecordExcitation {
     using Push = std::conditional_t<directions == Directions::both, Ground<Ramp<T>>, Ramp<T>>;
 
     RecordMotion<S> motion;
-    T acceleration; ///< the factor on the record [1]; negative: mirrored. Named as that of a pulse
-    T frequency;    ///< samples per time unit 1/p: 1 / (p time_step) [1]
-    T to_plus;      ///< uplift_acceleration() of the sides of the block [1]
+    T acceleration; ///< the factor on the samples [1]; negative: mirrored. Named as that of a pulse
+    T frequency; ///< of a record samples per time unit 1/p: 1 / (p time_step); see PulseExcitation
+    T to_plus;   ///< uplift_acceleration() of the sides of the block [1]
     T to_minus;
 
     /// What the ground does at this phase: T, or Ground<T> with a vertical motion.
     auto ground(const T& phase) const { return series<1>(acceleration, phase, T(1)).at(T(0)); }
 
     /// The push on the interval that contains or begins at the phase: the horizontal acceleration
-    /// times `towards`, the factor on the record with the sign of the side, over time from the
-    /// phase on; rate [samples per unit of time].
+    /// times `towards`, the factor on the samples with the sign of the side, over time from the
+    /// phase on; rate [phase per unit of time].
     template <int>
     Push series(const T& towards, const T& phase, const T& rate) const
     {
-        const T before = motion.sample_before(phase);
-        const T since = phase - before;
+        return push_on(motion.piece_at(phase), towards, phase, rate);
+    }
+
+    /// The same with the interval at the phase.
+    Push push_on(const RecordPiece<T>& piece, const T& towards, const T& phase, const T& rate) const
+    {
+        const T since = phase - piece.begin;
         const auto ramp_of = [&](const std::vector<double>& samples, const T& factor) -> Ramp<T> {
-            const auto [here, next] = gathered_pair<T>(samples.data(), before);
-            const T rise = next - here;
-            return {factor * Ramp<T>{here, rise}.at(since), factor * rise * rate};
+            const auto [here, next] = gathered_pair<T>(samples.data(), piece.sample);
+            T slope = next - here; // over the phase
+            if (motion.phases != nullptr) [[unlikely]] {
+                slope = slope / (piece.end - piece.begin);
+            }
+            return {factor * Ramp<T>{here, slope}.at(since), factor * slope * rate};
         };
         const Ramp<T> horizontal = ramp_of(motion.record->horizontal(), towards);
         if constexpr (directions == Directions::both) {
@@ -112,19 +182,19 @@ struct RecordExcitation {
     }
 
     /// In these lanes, the first uplift of a block at rest, at `phase` or later and after the
-    /// uplift `latest` [samples]; infinite if there is none. Between two samples, the ground must
-    /// not be lifting the block at `phase`.
+    /// uplift `latest`; infinite if there is none. Between two samples, the ground must not be
+    /// lifting the block at `phase`.
     T next_uplift(const mask_t<T>& lanes, const T& phase, const T& latest) const
     {
         const T scale = abs(acceleration);
         const auto resting = lanes_of(select<T>(lanes, 1, 0));
-        const auto first = lanes_of(T(ceil(phase)));
+        const auto first = lanes_of(motion.sample_after(phase));
         const auto factors = lanes_of(acceleration);
         const auto plus = lanes_of(to_plus);
         const auto minus = lanes_of(to_minus);
         std::array<S, lanes_v<T>> lifting;
         for (std::size_t i = 0; i < lifting.size(); ++i) {
-            lifting[i] = motion.end + S(1);
+            lifting[i] = motion.intervals + S(1);
             if (resting[i] != 0) {
                 lifting[i] =
                     S(motion.record->first_lifting(std::int64_t(first[i]), double(factors[i]),
@@ -132,7 +202,7 @@ struct RecordExcitation {
             }
         }
         const T sample = load<T>(lifting.data());
-        const mask_t<T> lifts = lanes && sample <= T(motion.end);
+        const mask_t<T> lifts = lanes && sample <= T(motion.intervals);
         // The excess over the threshold, which is linear on the interval before the sample.
         const T there = select<T>(lifts, sample, 1);
         const T before = greater<T>(there - 1, 0);
@@ -154,7 +224,8 @@ struct RecordExcitation {
         const T high = excess(there);
         const mask_t<T> crosses = low < 0 && high > low;
         const T share = select<T>(crosses, -low, 0) / select<T>(crosses, high - low, 1);
-        const T reached = select<T>(sample == 0, 0, before + lesser<T>(share, 1));
+        const T reached =
+            select<T>(sample == 0, 0, motion.phase_after(before, lesser<T>(share, 1)));
         const T earliest = greater<T>(reached, phase);
         // Rounding must not lift the block at the same phase again.
         const T previous = greater<T>(latest, -1);
@@ -165,19 +236,33 @@ struct RecordExcitation {
     }
 };
 
-/// The excitation of a block, as seen from its side plus, by a record, for any scalar. scale: the
-/// factor on the record [1]; frequency: samples per time unit, that of Block::frequency_parameter
-/// [1].
+/// The excitation of blocks, as seen from their side plus. strength: the factor on a record; of the
+/// shape of a pulse, the amplitude, see scaled_pulse() [1]. frequency: samples per time unit, that
+/// of Block::frequency_parameter [1], or that of a pulse. Always inlined, see record_motion().
+template <Theory theory, Directions directions, Number T>
+[[gnu::always_inline]] inline RecordExcitation<T, directions>
+record_excitation(const Accelerogram& record, const Block<T>& blocks, const T& strength,
+                  const T& frequency)
+{
+    RecordExcitation<T, directions> excitation{
+        .motion = record_motion<scalar_t<T>>(record),
+        .acceleration = strength,
+        .frequency = frequency,
+        .to_plus = Equations<theory>::uplift_acceleration(blocks),
+        .to_minus = Equations<theory>::uplift_acceleration(blocks.other)};
+    if (excitation.motion.phases != nullptr) {
+        excitation.acceleration = strength * lesser<T>(excitation.to_plus, excitation.to_minus);
+    }
+    return excitation;
+}
+
+/// The same for any scalar, and motions in both directions.
 template <Theory theory, class S>
 RecordExcitation<S, Directions::both> record_excitation(const Accelerogram& record,
-                                                        const Block<S>& block, const S& scale,
+                                                        const Block<S>& block, const S& strength,
                                                         const S& frequency)
 {
-    return {.motion = record_motion<S>(record),
-            .acceleration = scale,
-            .frequency = frequency,
-            .to_plus = Equations<theory>::uplift_acceleration(block),
-            .to_minus = Equations<theory>::uplift_acceleration(block.other)};
+    return record_excitation<theory, Directions::both>(record, block, strength, frequency);
 }
 
 } // namespace overturn

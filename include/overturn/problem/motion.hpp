@@ -1,5 +1,5 @@
-// The ground motion of a scene, a pulse or records. What depends on which of them it is stands here
-// as its traits and functions.
+// The ground motion of a scene: a pulse, a pulse that is given by a table, or records. What depends
+// on which of them it is stands here as its traits and functions.
 #pragma once
 
 #include "overturn/mechanics/accelerogram.hpp"
@@ -30,6 +30,12 @@ inline constexpr auto names_of<PulseKind> = [] {
                    [](const PulseTraits& pulse) { return pulse.name; });
     return names;
 }();
+
+/// A pulse as job files name it, and the numbers that complete it.
+struct NamedPulse {
+    std::string_view name;
+    std::vector<std::pair<std::string_view, double>> numbers;
+};
 
 struct MotionTraits {
     std::string_view name; ///< in sentences
@@ -65,6 +71,8 @@ struct MotionTraits {
     /// different verdicts lie close together, whatever their margins, and another integration may
     /// have another peak.
     bool is_sensitive;
+
+    std::string_view reason_not_to_fill; ///< empty if spectra may be filled
 };
 
 /// A pulse; each point has its own frequency and amplitude.
@@ -88,13 +96,13 @@ struct Pulse {
                                          .finest_step = 1e-6,
                                          .flip_width = 1e-12,
                                          .lifts_again = false,
-                                         .is_sensitive = false};
+                                         .is_sensitive = false,
+                                         .reason_not_to_fill = ""};
 
     PulseKind kind = PulseKind::one_sine;
     PulseShape shape{};
 
-    /// The numbers that complete the pulse, with their names.
-    std::vector<std::pair<std::string_view, double>> numbers() const;
+    std::optional<NamedPulse> named() const;
 
     Integrator integrator(const Numerics& numerics) const
     {
@@ -105,6 +113,35 @@ struct Pulse {
 };
 
 using Record = std::shared_ptr<const Accelerogram>;
+
+/// A pulse whose shape is given by a table. It has the coordinates of a pulse, and is integrated as
+/// a record.
+struct TabulatedPulse {
+    static constexpr MotionTraits traits = [] {
+        MotionTraits of_table = Pulse::traits;
+        of_table.method = Method::taylor;
+        of_table.has_other_methods = false;
+        of_table.in_31_digits = Integrator::recorded_31;
+        of_table.lifts_again = true;
+        of_table.reason_not_to_fill = "filling was verified for the other pulses only";
+        return of_table;
+    }();
+    static constexpr std::string_view name = "table";
+
+    Record shape; ///< its phases [rad], its accelerations over the peak
+
+    static std::optional<NamedPulse> named() { return NamedPulse{name, {}}; }
+
+    Integrator integrator(const Numerics&) const { return Integrator::recorded; }
+};
+
+/// All values of scene.pulse, those of PulseKind first.
+inline constexpr auto pulse_names = [] {
+    std::array<std::string_view, pulses.size() + 1> names;
+    std::copy(names_of<PulseKind>.begin(), names_of<PulseKind>.end(), names.begin());
+    names.back() = TabulatedPulse::name;
+    return names;
+}();
 
 /// Recorded ground motions, which each point scales. Either all or none have a vertical motion, and
 /// a second horizontal component.
@@ -129,14 +166,21 @@ struct Suite {
                                          .finest_step = 1e-3,
                                          .flip_width = 1e-4,
                                          .lifts_again = true,
-                                         .is_sensitive = true};
+                                         .is_sensitive = true,
+                                         .reason_not_to_fill =
+                                             "under a record regions have no simple boundaries"};
 
     std::vector<Record> records;
+
+    static std::optional<NamedPulse> named() { return std::nullopt; }
 
     Integrator integrator(const Numerics&) const { return Integrator::recorded; }
 };
 
-using Motion = std::variant<Pulse, Suite>;
+using Motion = std::variant<Pulse, Suite, TabulatedPulse>;
+
+/// The text, after the name of a key, that refuses it for a pulse: it belongs to others.
+std::string refusal_of_key(std::string_view pulse, std::string_view others);
 
 /// The reason why this value of a number of its shape is refused for a pulse, as a text that
 /// follows the name of the number: it has no meaning for the pulse, is missing, or is not allowed.

@@ -16,8 +16,8 @@ struct Point {
     /// Omega, of a block with two different sides omega_p in the unit of its p; under records,
     /// the samples per unit of time [1]
     double frequency;
-    /// The index of its record among those of the scene, if there are any. It counts from 0; the
-    /// coordinate `motion` counts from 1.
+    /// The index of its record among those of Scene::records(), if there are any. It counts from 0;
+    /// the coordinate `motion` counts from 1.
     int record = 0;
     /// The radius of gyration about the centre of mass over R of the side plus; of a box by default
     /// [1]. Only the forces of the contact depend on it.

@@ -30,12 +30,22 @@ struct Scene {
                           motion);
     }
 
-    /// The pulse, or nullptr.
+    /// The pulse that has a formula, or nullptr.
     const Pulse* pulse() const { return std::get_if<Pulse>(&motion); }
 
-    /// Empty under a pulse.
+    /// The pulse, of any kind; nullopt under records.
+    std::optional<NamedPulse> named_pulse() const
+    {
+        return std::visit([](const auto& kind) { return kind.named(); }, motion);
+    }
+
+    /// What is integrated as records: these, or the shape of a pulse that is given by a table;
+    /// empty under other pulses.
     std::span<const Record> records() const
     {
+        if (const auto* table = std::get_if<TabulatedPulse>(&motion)) {
+            return {&table->shape, 1};
+        }
         const auto* suite = std::get_if<Suite>(&motion);
         return suite == nullptr ? std::span<const Record>() : suite->records;
     }

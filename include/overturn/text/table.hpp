@@ -35,4 +35,9 @@ inline constexpr std::size_t largest_table_file = std::size_t(1) << 32; ///< [by
 /// text_column: a column whose values are texts even if they look like numbers. Throws Error.
 Table read_table(std::string_view text, const std::string& name, std::string_view text_column = "");
 
+/// The same for columns of known names: a first line of numbers is a row, other names are replaced,
+/// and lines that begin with # are comments. Refuses another number of columns.
+Table read_table_of(const std::vector<std::string_view>& columns, std::string_view text,
+                    const std::string& name);
+
 } // namespace overturn

@@ -265,9 +265,10 @@ void print_assessment(const Job& job, const std::vector<ObjectAnswer>& answers,
     const std::int64_t cases =
         std::ranges::max(mapped(answers, [](const ObjectAnswer& each) { return each.cases; }));
     print_row("objects", fmt::format("{} in {}", answers.size(), printable(options.objects)));
-    if (const Pulse* pulse = scene.pulse()) {
-        print_row("motion", fmt::format("{}, period {} s", name_of(pulse->kind),
-                                        fmt::join(options.periods, ", ")));
+    if (const auto pulse = scene.named_pulse()) {
+        print_row("motion",
+                  fmt::format("{}, period {} s{}", pulse->name, fmt::join(options.periods, ", "),
+                              job.shape ? "; " + shape_line(*job.shape) : ""));
     } else {
         for (const std::string& line : record_lines(job)) {
             print_row("record", scene.worded(line));
@@ -333,9 +334,13 @@ std::string json_of(const Job& job, const std::vector<ObjectAnswer>& answers,
     members["program_version"] = program_version();
     members["table"] = options.objects;
     Json& motion = members["motion"];
-    if (const Pulse* pulse = scene.pulse()) {
-        motion["pulse"] = name_of(pulse->kind);
+    if (const auto pulse = scene.named_pulse()) {
+        motion["pulse"] = pulse->name;
         motion["periods"] = options.periods;
+        if (job.shape) {
+            motion["shape"] = job.shape->file;
+            motion["shape_peak"] = job.shape->peak;
+        }
     } else {
         motion["records"] =
             mapped(job.motions, [](const RecordedMotion& each) { return each.name; });

@@ -199,15 +199,18 @@ std::string unused_columns(const Job& job)
     return printable(fmt::format("{}", fmt::join(names, ", ")));
 }
 
-void print_pulse(const Pulse& pulse)
+void print_pulse(const NamedPulse& pulse, const Job& job)
 {
-    print_row("pulse", name_of(pulse.kind));
-    for (const auto& [name, value] : pulse.numbers()) {
+    print_row("pulse", pulse.name);
+    for (const auto& [name, value] : pulse.numbers) {
         print_row(name,
                   name == "window"
                       ? fmt::format("-{0} to {0} pulse periods, truncated at {1:.2g} % of the peak",
-                                    value, 100 * cut_by_window(pulse))
+                                    value, 100 * cut_by_window(*job.problem.scene.pulse()))
                       : fmt::format("{}{}", value, name == "nu" ? " rad" : " pulse periods"));
+    }
+    if (job.shape) {
+        print_row("shape", shape_line(*job.shape));
     }
 }
 
@@ -217,8 +220,8 @@ void print_scene(const Job& job)
         print_row("record", line);
     }
     const auto& [scene, grid, numerics, product, fields] = job.problem;
-    if (const Pulse* pulse = scene.pulse()) {
-        print_pulse(*pulse);
+    if (const auto pulse = scene.named_pulse()) {
+        print_pulse(*pulse, job);
     }
     print_motion_of("motion", scene.motion_of);
     print_row("theory", name_of(scene.theory));
@@ -339,6 +342,14 @@ std::vector<std::string> record_lines(const Job& job)
     const std::vector<std::string> equal = lines_of_equal_records(job);
     lines.insert(lines.end(), equal.begin(), equal.end());
     return lines;
+}
+
+std::string shape_line(const ShapeTable& table)
+{
+    return printable(fmt::format("{}{} rows over {:.6g} {}, values divided by {:.6g}",
+                                 table.file.empty() ? "" : table.file + ": ",
+                                 table.shape->samples(), table.periods,
+                                 table.periods == 1 ? "period" : "periods", table.peak));
 }
 
 std::vector<std::string> notes_on(const Job& job)

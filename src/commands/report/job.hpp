@@ -24,6 +24,9 @@ std::string block_line(const Job& job);
 /// equals another one.
 std::vector<std::string> record_lines(const Job& job);
 
+/// The table of the pulse: its file, rows and duration, and by what its values were divided.
+std::string shape_line(const ShapeTable& table);
+
 /// What a reader of the log of a run must know of its records and columns.
 std::vector<std::string> notes_on(const Job& job);
 

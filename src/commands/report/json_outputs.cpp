@@ -161,11 +161,15 @@ void add(Json& members, const DirectedAnswer& directed, const std::string* verdi
 Json motion_of(const Job& job, const ToppleOptions& options)
 {
     Json json;
-    if (const Pulse* pulse = job.problem.scene.pulse()) {
-        json["pulse"] = name_of(pulse->kind);
+    if (const auto pulse = job.problem.scene.named_pulse()) {
+        json["pulse"] = pulse->name;
         json["period"] = *options.period;
-        for (const auto& [name, value] : pulse->numbers()) {
+        for (const auto& [name, value] : pulse->numbers) {
             json[name.data()] = value;
+        }
+        if (job.shape) {
+            json["shape"] = job.shape->file;
+            json["shape_peak"] = job.shape->peak;
         }
     } else {
         const RecordedMotion& motion = job.motions.front();

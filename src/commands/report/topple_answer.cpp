@@ -68,15 +68,15 @@ std::string slip_text(const ToppleAnswer& answer, const std::optional<double>& s
 /// The motion, but for its direction.
 std::string motion_text(const Job& job, const ToppleOptions& options)
 {
-    const Pulse* pulse = job.problem.scene.pulse();
-    if (pulse == nullptr) {
+    const auto pulse = job.problem.scene.named_pulse();
+    if (!pulse) {
         return record_lines(job).front();
     }
-    std::string text = fmt::format("{}, period {} s", name_of(pulse->kind), *options.period);
-    for (const auto& [name, value] : pulse->numbers()) {
+    std::string text = fmt::format("{}, period {} s", pulse->name, *options.period);
+    for (const auto& [name, value] : pulse->numbers) {
         text += fmt::format(", {} {}", name, value);
     }
-    return text;
+    return text + (job.shape ? "; " + shape_line(*job.shape) : "");
 }
 
 /// Dimensions that the command line gives, such as "0.55 m x 2.1 m, height of the centre of mass 1
