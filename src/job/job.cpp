@@ -92,8 +92,7 @@ Numerics read_numerics(const Entry& job, const MotionTraits& motion)
     numerics.method = choice_of(entry, "method", motion.method);
     if (numerics.method != motion.method && !motion.has_other_methods) {
         refuse(*find(entry, "method"),
-               " = \"{}\" is for pulses that have a formula. Under a record or a table, use "
-               "\"taylor\", the default.",
+               " = \"{}\" is for pulses only, and not for a table. Use \"taylor\", the default.",
                name_of(numerics.method));
     }
     numerics.resolve = boolean_of(entry, "resolve", numerics.resolve);

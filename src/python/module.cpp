@@ -4,6 +4,7 @@
 #include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/problem/given.hpp"
 #include "overturn/problem/plausibility.hpp"
+#include "overturn/problem/pulse_table.hpp"
 #include "overturn/record/read_record.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/text/error.hpp"
@@ -87,6 +88,17 @@ Scene scene_of_pulse(const std::string& pulse, const std::string& theory, double
     return scene;
 }
 
+/// A scene under a pulse that is given by a table; times: over the period. Throws GivenError.
+Scene scene_of_table(const Values& times, const Values& values, const std::string& theory,
+                     double gravity)
+{
+    Scene scene;
+    scene.theory = choice_of<Theory>("theory", theory);
+    scene.gravity = allowed("gravity", gravity);
+    scene.motion = pulse_of_table(vector_of(times), vector_of(values)).pulse;
+    return scene;
+}
+
 /// A scene under a record; horizontal, second and upwards: accelerations over g, finite, the latter
 /// two of the same number or empty.
 Scene scene_of_record(const Values& horizontal, const Values& second, const Values& upwards,
@@ -113,8 +125,8 @@ Numerics numerics_of(const Scene& scene, const std::string& method, std::optiona
     }
     if (const MotionTraits& motion = scene.motion_traits();
         numerics.method != motion.method && !motion.has_other_methods) {
-        throw std::invalid_argument(fmt::format("method = \"{}\" is for pulses only. Use "
-                                                "\"taylor\", the default.",
+        throw std::invalid_argument(fmt::format("method = \"{}\" is for pulses only, and not for a "
+                                                "table. Use \"taylor\", the default.",
                                                 method));
     }
     if (resolve && !knows_errors(numerics)) {
@@ -329,6 +341,7 @@ PYBIND11_MODULE(_core, module)
     py::class_<Scene>(module, "Scene");
     py::class_<Numerics>(module, "Numerics");
     module.def("scene_of_pulse", &scene_of_pulse);
+    module.def("scene_of_table", &scene_of_table);
     module.def("scene_of_record", &scene_of_record);
     module.def("with_motion_of", &with_motion_of);
     module.def("numerics", &numerics_of);

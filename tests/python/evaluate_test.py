@@ -95,6 +95,40 @@ class TheBitsOfAPlane(WithTheSameBits):
         self.assert_same(outcome, spectrum, kinds=4)
 
 
+class APulseOfOnesOwn(WithTheSameBits):
+    ROWS = np.array([[3, 0], [3.1, 2], [3.4, -5], [3.5, -1], [4.25, 0]])
+    SHAPES = ({"shape": ROWS}, {"shape": ROWS.tolist(), "pulse": "table"})
+
+    def test_has_the_bits_of_a_plane(self):
+        spectrum = overturn.run({
+            "scene": {"pulse": "table", "shape": self.ROWS}, "block": {"width": 0.6, "height": 2.4},
+            "output": {"fields": FIELDS},
+            "plane": {"pulse_period": {"first": 0.3, "last": 2, "count": 12}, "restitution": 0.87,
+                      "pga": {"first": 0.1, "last": 1.5, "count": 11}}})
+        for shape in self.SHAPES:
+            outcome = overturn.evaluate(**BLOCK, **shape, pga=spectrum.pga.values[:, None],
+                                        pulse_period=spectrum.pulse_period.values)
+            self.assert_same(outcome, spectrum, kinds=3)
+
+    def test_is_refused_unless_it_is_one(self):
+        for phrase, arguments in (
+                ("shape has the shape (4,). Give rows (time over the period, value): (n, 2).", {"shape": [0, 1, 2, 3]}),
+                ("shape[2, 0] = 1.0 is not after the time before it, 1", {"shape": [[0, 0], [1, 1], [1, 2]]}),
+                ("shape[1, 1] = nan is not a finite number", {"shape": [[0, 0], [1, np.nan]]}),
+                ("shape is zero at all times", {"shape": [[0, 0], [1, 0]]}),
+                ("shape has 1 row", {"shape": [[0, 1]]}),
+                ("shape is not a number or an array of numbers", {"shape": "shape.csv"}),
+                ('the pulse "table" needs shape', {"pulse": "table"}),
+                ('shape is for the pulse "table"', {"pulse": "one_sine", "shape": self.ROWS}),
+                ("window has no meaning for a shape", {"window": 2, "shape": self.ROWS}),
+                ("is for pulses only, and not for a table", {"method": "rk45", "shape": self.ROWS})):
+            with self.subTest(phrase), self.assertRaises(ValueError) as raised:
+                overturn.evaluate(**BLOCK, **PULSE, **arguments)
+            self.assertIn(phrase.replace("1.0", "1"), str(raised.exception).replace("1.0", "1"))
+        with self.assertRaisesRegex(ValueError, "shape cannot be combined with record"):
+            overturn.evaluate(**BLOCK, record=[0, 1], time_step=0.1, scale=1, shape=self.ROWS)
+
+
 class EveryField(WithTheSameBits):
     PLANE = {"slenderness": 0.2, "restitution": 0.8, "friction": 0.35}
 

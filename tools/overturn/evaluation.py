@@ -31,7 +31,7 @@ Outcome = dict
 
 
 def evaluate(*, fields=("region", "status", "peak", "margin"),
-             pulse=None, window=None, cycles=None, gamma=None, nu=None,
+             pulse=None, window=None, cycles=None, gamma=None, nu=None, shape=None,
              record=None, second_component=None, vertical=None, time_step=None, units=None, motion_of=None,
              theory="nonlinear", method="taylor", tolerance=None, resolve=False, gravity=9.81, **coordinates):
     """Computes what becomes of blocks, each under its own pulse, or all under one record.
@@ -45,6 +45,8 @@ def evaluate(*, fields=("region", "status", "peak", "margin"),
     A pulse:
         pulse: its kind, by default "one_sine"; window, cycles, gamma, nu: numbers that complete some kinds, see
             docs/jobs.md.
+        shape: instead of these, the rows (time over the period, value) of a pulse that is straight between them, of the
+            shape (n, 2); the values are divided by the largest absolute one.
     Or a record:
         record: horizontal accelerations, one-dimensional, linear between samples; an array, what read_record() or
             floor_motion() returns, or a Trace of ObsPy or a Stream of one.
@@ -59,7 +61,7 @@ def evaluate(*, fields=("region", "status", "peak", "margin"),
             that of the record, which floor_motion() and read_record() state, or "ground".
     The computation:
         theory: "nonlinear" or "linear".
-        method: "taylor", or "rk45" under pulses.
+        method: "taylor", or "rk45" under pulses other than a shape.
         tolerance: local error per step [1]; by default 1e-9, with resolve 1e-4.
         resolve: settle verdicts in doubt with up to 50 digits.
         gravity: g [m/s2].
@@ -89,10 +91,15 @@ def evaluate(*, fields=("region", "status", "peak", "margin"),
             raise ArgumentError("the ground motion is incomplete. Give pulse_period (or pulse_frequency or "
                                 "frequency) and pga (or amplitude), or a record.")
         columns |= of_pulse
-        scene = core.scene_of_pulse("one_sine" if pulse is None else pulse, theory, single["gravity"],
-                                    {name: single[name] for name in shape_numbers})
+        if pulse == "table" or (pulse is None and shape is not None):
+            refuse(shape_numbers, "has no meaning for a shape")
+            scene = _scene_of_shape(shape, theory, single["gravity"])
+        else:
+            refuse(given(shape=shape), "is for the pulse \"table\"")
+            scene = core.scene_of_pulse("one_sine" if pulse is None else pulse, theory, single["gravity"],
+                                        {name: single[name] for name in shape_numbers})
     else:
-        refuse({**given(pulse=pulse), **of_pulse, **shape_numbers}, "cannot be combined with record")
+        refuse({**given(pulse=pulse, shape=shape), **of_pulse, **shape_numbers}, "cannot be combined with record")
         motions = given(record=record, second_component=second_component, vertical=vertical)
         motion_of = motion_of_components(motions, motion_of)
         components, step = accelerations_of(motions, single.get("time_step"), units, single["gravity"])
@@ -107,6 +114,20 @@ def evaluate(*, fields=("region", "status", "peak", "margin"),
     scene = core.with_motion_of(scene, motion_of or "ground")
     numerics = core.numerics(scene, method, single.get("tolerance"), bool(resolve))
     return _evaluated(scene, numerics, columns, list(fields))
+
+
+def _scene_of_shape(shape, theory, gravity):
+    if shape is None:
+        raise ArgumentError("the pulse \"table\" needs shape, an array of rows (time over the period, value).")
+    rows = numbers("shape", shape)
+    if rows.ndim != 2 or rows.shape[1] != 2:
+        raise ValueError(f"shape has the shape {rows.shape}. Give rows (time over the period, value): (n, 2).")
+    try:
+        return core.scene_of_table(rows[:, 0], rows[:, 1], theory, gravity)
+    except core.GivenError as error:
+        row, column, message = error.args
+        place = f"[{row}, {('time', 'value').index(column)}]" if column else ""
+        raise ValueError(f"shape{place}{message}") from None
 
 
 def _described(name, row):

@@ -29,6 +29,7 @@ FILES = {"scene.record": "a path or a list of paths. overturn.evaluate(record=..
                            "takes accelerations",
          "scene.second_component": "a component of the record, a path, or a list of them. "
                                    "overturn.evaluate(second_component=...) takes accelerations",
+         "shape": "the path of a table. overturn.evaluate(shape=...), and scene.shape of a job, take arrays",
          "blocks.table": "the path of a CSV file. overturn.evaluate(width=..., height=...) takes arrays of blocks"}
 
 Job = Union[str, "os.PathLike[str]", Mapping[str, Any]]
@@ -84,7 +85,8 @@ def run(job: Job, ranks: int = 1, *, output: str | os.PathLike[str] | None = Non
 
 
 def topple(*, direction: float | None = None, pulse: str | None = None, period: float | None = None,
-           record: str | os.PathLike[str] | None = None, component: str | int | None = None, pga: float | None = None,
+           shape: str | os.PathLike[str] | None = None, record: str | os.PathLike[str] | None = None,
+           component: str | int | None = None, pga: float | None = None,
            scale: float | None = None, restitution: float | None = None, velocity_restitution: float | None = None,
            restitution_of_maximum: float | None = None, pga_max: float | None = None, search: bool = True,
            vary: tuple[str, float, float] | None = None, history: str | os.PathLike[str] | None = None,
@@ -93,6 +95,7 @@ def topple(*, direction: float | None = None, pulse: str | None = None, period: 
 
     block: width and height [m], incline [rad] and so on; with all other arguments, the options of the command.
     record: the path of a recorded motion. evaluate() takes accelerations.
+    shape: the path of the table of pulse = "table". evaluate() takes an array.
     search: if false, only the verdict at `pga` or `scale`, in a fraction of the time; what needs the search is None.
     vary: a quantity of the block, such as "width", or "restitution_of_maximum", and its first and last value. The answer
         is then at which values between these the block topples at `pga` or `scale`.
@@ -105,11 +108,12 @@ def topple(*, direction: float | None = None, pulse: str | None = None, period: 
 
     Warns of values that are probably in another unit. Raises ProgramError if the program fails.
     """
-    given = {**block, "direction": direction, "pulse": pulse, "period": period, "record": record,
+    given = {**block, "direction": direction, "pulse": pulse, "period": period, "shape": shape, "record": record,
              "component": component, "pga": pga, "scale": scale, "restitution": restitution,
              "velocity_restitution": velocity_restitution, "restitution_of_maximum": restitution_of_maximum,
              "pga_max": pga_max, "history": history}
     _expect_file_names("" if record is None else record, "scene.record")
+    _expect_file_names("" if shape is None else shape, "shape")
     options = [f"--{name.replace('_', '-')}={_option_text(value)}" for name, value in given.items()
                if value is not None] + ["--no-search"] * (not search)
     if vary is not None:
