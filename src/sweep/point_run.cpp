@@ -326,9 +326,10 @@ void PointRun::run_by(Integrator integrator, double tolerance, Outcomes& outcome
                               .drop_requested = is_dropped,
                               .context = &drop_requested_,
                               .outcomes = outcomes.of_points.get()};
-        const Directions directions = record != nullptr && !record->upwards().empty()
-                                          ? Directions::both
-                                          : Directions::horizontal;
+        const Directions directions = record == nullptr           ? Directions::horizontal
+                                      : !record->phases().empty() ? Directions::both
+                                      : record->upwards().empty() ? Directions::horizontal
+                                                                  : Directions::both_recorded;
         sweep_kernel(kernel_, integrator, scene_.theory, outcomes.outputs, directions)(task);
         throw_if_dropped(); // if dropped, some outcomes may be missing
     };

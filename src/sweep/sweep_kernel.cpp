@@ -268,7 +268,7 @@ SweepKernel kernel_for(const Outputs& outputs)
     constexpr Outputs with_errors{.impacts = true, .error = true, .peak = OVERTURN_RECORDED};
     constexpr bool has_contact = Equations<theory>::has_contact_forces;
     constexpr Outputs all{.impacts = true, .error = true, .peak = true, .contact = has_contact};
-    if constexpr (has_31_digits) {
+    if constexpr (directions == Directions::both) {
         return sweep<theory, all, directions>;
     } else {
         if (outputs.contact || (outputs.error && outputs.peak)) {
@@ -292,12 +292,18 @@ SweepKernel kernel_for(const Outputs& outputs)
 template <Theory theory>
 SweepKernel kernel_for(const Outputs& outputs, Directions directions)
 {
-    // Only records have a vertical motion: for pulses no further kernel is compiled. In 31 digits,
-    // one for both is almost as fast.
-    constexpr Directions both = OVERTURN_RECORDED ? Directions::both : Directions::horizontal;
-    constexpr Directions fewest = has_31_digits ? both : Directions::horizontal;
-    return directions == Directions::horizontal ? kernel_for<theory, fewest>(outputs)
-                                                : kernel_for<theory, both>(outputs);
+    // Pulses that have a formula need no further kernels. In 31 digits, one for any motion is
+    // almost as fast as the others.
+    if constexpr (!OVERTURN_RECORDED) {
+        return kernel_for<theory, Directions::horizontal>(outputs);
+    } else if constexpr (has_31_digits) {
+        return kernel_for<theory, Directions::both>(outputs);
+    } else {
+        return directions == Directions::both ? kernel_for<theory, Directions::both>(outputs)
+               : directions == Directions::horizontal
+                   ? kernel_for<theory, Directions::horizontal>(outputs)
+                   : kernel_for<theory, Directions::both_recorded>(outputs);
+    }
 }
 
 } // namespace

@@ -1,11 +1,12 @@
 #include "hostile_input.hpp"
 
-#include "overturn/problem/given.hpp"
+#include "overturn/problem/pulse_table.hpp"
 #include "overturn/problem/quantity.hpp"
 #include "overturn/text/error.hpp"
 #include "overturn/text/table.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 
 namespace overturn {
@@ -40,11 +41,33 @@ std::vector<Given> columns_of(const Table& table)
     return columns;
 }
 
+/// As the shape of a pulse.
+void use_as_shape(std::string_view bytes, const std::string& name)
+{
+    try {
+        const Table table = read_table_of({"time", "value"}, bytes, name);
+        demand(table.columns.size() == 2, "the shape of a pulse does not have two columns");
+        if (table.columns[0].first_text < 0 && table.columns[1].first_text < 0) {
+            const Accelerogram& shape =
+                *pulse_of_table(table.columns[0].numbers, table.columns[1].numbers).pulse.shape;
+            demand(std::ranges::is_sorted(shape.phases(), std::ranges::less_equal()) &&
+                       shape.peak() == 1,
+                   "the shape of a pulse does not ascend to the peak 1");
+        }
+    } catch (const Error& error) {
+        demand(std::string_view(error.what()).starts_with(name + ":"),
+               "a refusal does not name the file");
+    } catch (const GivenError& error) {
+        demand(error.row() >= GivenError::no_row, "a refusal names an impossible row");
+    }
+}
+
 } // namespace
 
 Verdict use_as_table(std::string_view bytes)
 {
     const std::string name = "table.csv";
+    use_as_shape(bytes, name);
     try {
         const Table table = read_table(bytes, name);
         demand(table.rows() > 0 && std::is_sorted(table.lines.begin(), table.lines.end()),

@@ -49,6 +49,62 @@ TEST(RecordExcitation, HasAPiecePerInterval)
     EXPECT_FALSE(motion.is_monotone(0.5, 1.001));
 }
 
+/// At uneven phases.
+Accelerogram shape_of_pulse()
+{
+    return Accelerogram::of_pulse({0, 0.5, 0.75, 4}, {0.5, -1, 0, 0.25});
+}
+
+TEST(PulseOfSamples, HasAPiecePerInterval)
+{
+    const Accelerogram shape = shape_of_pulse();
+    const RecordMotion<double, true> motion = record_motion<double>(shape);
+    EXPECT_EQ(motion.begin, 0);
+    EXPECT_EQ(motion.end, 4);
+    EXPECT_EQ(motion.pieces(), 3);
+    EXPECT_EQ(motion.end_of_piece(0.0), 0.5);
+    EXPECT_EQ(motion.end_of_piece(std::nextafter(0.5, 0.0)), 0.5);
+    EXPECT_EQ(motion.end_of_piece(0.5), 0.75); // a sample begins the next piece
+    EXPECT_EQ(motion.end_of_piece(3.0), 4);
+    EXPECT_EQ(motion.end_of_piece(4.0), 4);
+    EXPECT_EQ(motion.end_of_piece(5.0), 4);
+    EXPECT_EQ(motion.sample_after(0.0), 0);
+    EXPECT_EQ(motion.sample_after(0.5), 1);
+    EXPECT_EQ(motion.sample_after(std::nextafter(0.5, 1.0)), 2);
+    EXPECT_EQ(motion.sample_after(4.0), 3);
+    EXPECT_EQ(motion.sample_after(4.5), 4);
+    EXPECT_TRUE(motion.is_monotone(0.75, 4.0));
+    EXPECT_FALSE(motion.is_monotone(0.6, 0.8));
+}
+
+TEST(PulseOfSamples, IsLinearBetweenItsSamplesAndHasTheAmplitudeOfALiftedBlock)
+{
+    const Accelerogram shape = shape_of_pulse();
+    const Block<double> block{0.25, 0.9};
+    const auto excitation = record_excitation<Theory::linear>(shape, block, -2.0, 3.0);
+    EXPECT_EQ(excitation.acceleration, -0.5); // twice what lifts it, mirrored
+    EXPECT_EQ(excitation.frequency, 3);
+    for (const auto& [phase, expected] :
+         {std::pair(0.0, -0.25), {0.25, 0.125}, {0.5, 0.5}, {0.625, 0.25}, {4.0, -0.125}}) {
+        EXPECT_EQ(horizontal_of(excitation.ground(phase)), expected) << phase;
+    }
+    // A quarter of a unit of time after the phase, in which the phase grows by 0.75.
+    EXPECT_EQ(excitation.series<14>(0.5, 1.0, 3.0).at(0.25).horizontal, 0.5 * 0.25 / 3.25);
+}
+
+TEST(PulseOfSamples, LiftsWhereTheAccelerationFirstExceedsTheThreshold)
+{
+    const Accelerogram shape = shape_of_pulse();
+    auto excitation = record_excitation<Theory::linear>(shape, Block<double>{0.25, 0.9}, 1.0, 3.0);
+    excitation.acceleration = 1;
+    EXPECT_EQ(excitation.next_uplift(true, 0, -infinity), 0);
+    // From 0.5 to -1 in 0.5: it reaches -0.25 after a phase of 0.25.
+    EXPECT_NEAR(excitation.next_uplift(true, 0.2, 0), 0.25, 4 * epsilon);
+    EXPECT_EQ(excitation.next_uplift(true, 0.75, 0.5), infinity);
+    excitation.acceleration = 1.25; // the last sample is above 0.25
+    EXPECT_NEAR(excitation.next_uplift(true, 0.75, 0.5), 0.75 + 0.8 * 3.25, 8 * epsilon);
+}
+
 /// The excess of the ground over what lifts the block, with the larger of both signs.
 template <Directions directions>
 double excess(const RecordExcitation<double, directions>& excitation, double phase)

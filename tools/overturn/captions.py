@@ -11,7 +11,8 @@ from overturn.tables import RATES, SIZES, STRENGTHS
 
 PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
           "antisymmetric_ricker": "antisymmetric Ricker wavelet",
-          "mavroeidis_papageorgiou": "Mavroeidis\u2013Papageorgiou pulse"}
+          "mavroeidis_papageorgiou": "Mavroeidis\u2013Papageorgiou pulse",
+          "table": "pulse of a table"}
 PULSE_NUMBERS = ("window", "cycles", "gamma", "nu")
 # Quantity, symbol and unit of a value.
 SYMBOLS = {"frequency": "ω_p/p", "pulse_period": "period", "pulse_frequency": "frequency", "pga": "PGA", "size": "R",

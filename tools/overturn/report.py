@@ -229,7 +229,8 @@ def page_of(answers):
     motion = answers["motion"]
     is_floor = answers["motion_of"] == "floor"
     measure = "peak floor acceleration (PFA)" if is_floor else "peak ground acceleration (PGA)"
-    text = (f"{motion['pulse'].replace('_', '-')} pulse, period {', '.join(f'{each:g}' for each in motion['periods'])} s"
+    pulse = f"pulse of {motion['shape']}" if "shape" in motion else f"{motion.get('pulse', '').replace('_', '-')} pulse"
+    text = (f"{pulse}, period {', '.join(f'{each:g}' for each in motion['periods'])} s"
             if "pulse" in motion else f"{len(motion['records'])} records: {', '.join(motion['records'])}")
     is_asked = rows[0]["verdict"] is not None
     asked = answers["pga"] if is_asked else None

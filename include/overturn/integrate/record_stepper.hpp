@@ -66,8 +66,8 @@ public:
     {
         const auto piece = excitation_.motion.piece_at(now.phase);
         const T& end_of_piece = piece.end;
-        const auto push = excitation_.push_on(piece, now.side * excitation_.acceleration, now.phase,
-                                              phase_per_unit_);
+        const auto push =
+            excitation_.push_on(piece, now.side * excitation_.acceleration, phase_per_unit_);
         const auto known = Equations<theory>::template series<known_order>(
             side_, now.tilt, now.rate * time_.unit, push, time_.unit);
         decltype(auto) series = leading<order>(known);

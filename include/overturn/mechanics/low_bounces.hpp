@@ -176,7 +176,7 @@ bound_of_low_bounces(const Block<double>& block,
     if (!excitation.motion.record->upwards().empty()) {
         return std::nullopt;
     }
-    const double step = excitation.motion.phases != nullptr ? step_of_pulse : 0.125; // [samples]
+    const double step = excitation.motion.has_own_phases() ? step_of_pulse : 0.125; // [samples]
     return bound_of_low_bounces<theory>(block, excitation, step, 0.0);
 }
 

@@ -10,16 +10,18 @@
 
 namespace overturn {
 
-/// The interval between two samples.
+/// A phase in the interval between two samples.
 template <Number T>
 struct RecordPiece {
     T sample; ///< the number of the first one
-    T begin;  ///< phases
-    T end;
+    T since;  ///< the phase after the first one
+    T end;    ///< the phase of the second one
 };
 
-/// A record over its phase. The record must outlive it. S: the type of one lane.
-template <class S>
+/// A record over its phase. The record must outlive it. S: the type of one lane. may_be_pulse:
+/// whether it may be the shape of a pulse, with phases of its own; kernels of records are faster
+/// without.
+template <class S, bool may_be_pulse = false>
 struct RecordMotion {
     const Accelerogram* record;
     const double* phases; ///< of the samples [rad]; null: their numbers
@@ -27,19 +29,34 @@ struct RecordMotion {
     S end;
     S intervals; ///< the number of smooth pieces
 
+    operator RecordMotion<S, true>() const // for functions of any motion
+        requires(!may_be_pulse)
+    {
+        return {record, phases, begin, end, intervals};
+    }
+
     S pieces() const { return intervals; }
+    bool has_own_phases() const { return may_be_pulse && phases != nullptr; }
 
     /// The interval that contains or begins at the phase, the first or last one if none does. No
     /// step may cross its end.
     template <Number T>
     RecordPiece<T> piece_at(const T& phase) const
     {
-        if (phases != nullptr) [[unlikely]] {
-            return own_piece_at(phase);
-        }
         const T last(end - S(1));
         const T before = lesser<T>(greater<T>(T(floor(phase)), T(begin)), last);
-        return {before, before, before + T(1)};
+        RecordPiece<T> piece{before, phase - before, before + T(1)};
+        if (has_own_phases()) {
+            // With more digits, a phase that is below that of a sample by less than a double
+            // resolves is in the interval that begins there; what follows from that is far below
+            // any error bound.
+            piece.sample =
+                number_of<T>(phase, [&](double at) { return record->sample_before(at); });
+            const auto [first, next] = gathered_pair<T>(phases, piece.sample);
+            piece.since = phase - first;
+            piece.end = next;
+        }
+        return piece;
     }
 
     template <Number T>
@@ -52,16 +69,16 @@ struct RecordMotion {
     template <Number T>
     T sample_after(const T& phase) const
     {
-        return phases == nullptr
-                   ? T(ceil(phase))
-                   : number_of<T>(phase, [&](double at) { return record->sample_after(at); });
+        return has_own_phases()
+                   ? number_of<T>(phase, [&](double at) { return record->sample_after(at); })
+                   : T(ceil(phase));
     }
 
     /// The phase at a share of the interval that begins at a sample.
     template <Number T>
     T phase_after(const T& sample, const T& share) const
     {
-        if (phases == nullptr) {
+        if (!has_own_phases()) {
             return sample + share;
         }
         const auto [first, last] = gathered_pair<T>(phases, sample);
@@ -76,16 +93,6 @@ struct RecordMotion {
     }
 
 private:
-    /// With more digits, a phase that is below that of a sample by less than a double resolves is
-    /// in the interval that begins there; what follows from that is far below any error bound.
-    template <Number T>
-    [[gnu::noinline]] RecordPiece<T> own_piece_at(const T& phase) const
-    {
-        const T sample = number_of<T>(phase, [&](double at) { return record->sample_before(at); });
-        const auto [first, last] = gathered_pair<T>(phases, sample);
-        return {sample, first, last};
-    }
-
     /// Lane by lane.
     template <Number T, class NumberAt>
     static T number_of(const T& phase, const NumberAt& number_at)
@@ -111,15 +118,17 @@ template <class S>
             .intervals = intervals};
 }
 
-/// The directions in which the ground may move. Without a vertical motion, `horizontal` is faster.
-enum class Directions { horizontal, both };
+/// The directions in which the ground may move. `both` is for any motion, also for the shape of a
+/// pulse. Of records, `horizontal` is faster without a vertical motion, `both_recorded` with it.
+enum class Directions { horizontal, both, both_recorded };
 
 template <Number T, Directions directions>
 struct RecordExcitation {
     using S = scalar_t<T>;
-    using Push = std::conditional_t<directions == Directions::both, Ground<Ramp<T>>, Ramp<T>>;
+    static constexpr bool has_vertical = directions != Directions::horizontal;
+    using Push = std::conditional_t<has_vertical, Ground<Ramp<T>>, Ramp<T>>;
 
-    RecordMotion<S> motion;
+    RecordMotion<S, directions == Directions::both> motion;
     T acceleration; ///< the factor on the samples [1]; negative: mirrored. Named as that of a pulse
     T frequency; ///< of a record samples per time unit 1/p: 1 / (p time_step); see PulseExcitation
     T to_plus;   ///< uplift_acceleration() of the sides of the block [1]
@@ -134,23 +143,23 @@ struct RecordExcitation {
     template <int>
     Push series(const T& towards, const T& phase, const T& rate) const
     {
-        return push_on(motion.piece_at(phase), towards, phase, rate);
+        return push_on(motion.piece_at(phase), towards, rate);
     }
 
     /// The same with the interval at the phase.
-    Push push_on(const RecordPiece<T>& piece, const T& towards, const T& phase, const T& rate) const
+    Push push_on(const RecordPiece<T>& piece, const T& towards, const T& rate) const
     {
-        const T since = phase - piece.begin;
         const auto ramp_of = [&](const std::vector<double>& samples, const T& factor) -> Ramp<T> {
             const auto [here, next] = gathered_pair<T>(samples.data(), piece.sample);
             T slope = next - here; // over the phase
-            if (motion.phases != nullptr) [[unlikely]] {
-                slope = slope / (piece.end - piece.begin);
+            if (motion.has_own_phases()) {
+                const auto [first, last] = gathered_pair<T>(motion.phases, piece.sample);
+                slope = slope / (last - first);
             }
-            return {factor * Ramp<T>{here, slope}.at(since), factor * slope * rate};
+            return {factor * Ramp<T>{here, slope}.at(piece.since), factor * slope * rate};
         };
         const Ramp<T> horizontal = ramp_of(motion.record->horizontal(), towards);
-        if constexpr (directions == Directions::both) {
+        if constexpr (has_vertical) {
             if (motion.record->upwards().empty()) { // outside the kernels, compiled only for both
                 return {horizontal, {T(1), T(0)}};
             }
@@ -212,7 +221,7 @@ struct RecordExcitation {
         const T threshold = select<T>(peak * acceleration < 0, to_plus, to_minus);
         const auto excess = [&](const T& number) -> T {
             T needed = threshold;
-            if constexpr (directions == Directions::both) {
+            if constexpr (has_vertical) {
                 if (!motion.record->upwards().empty()) {
                     const T v = gathered<T>(motion.record->upwards().data(), number);
                     needed = threshold * (1 + scale * v);
@@ -250,7 +259,7 @@ record_excitation(const Accelerogram& record, const Block<T>& blocks, const T& s
         .frequency = frequency,
         .to_plus = Equations<theory>::uplift_acceleration(blocks),
         .to_minus = Equations<theory>::uplift_acceleration(blocks.other)};
-    if (excitation.motion.phases != nullptr) {
+    if (excitation.motion.has_own_phases()) {
         excitation.acceleration = strength * lesser<T>(excitation.to_plus, excitation.to_minus);
     }
     return excitation;
