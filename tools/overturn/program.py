@@ -126,14 +126,15 @@ def topple(*, direction: float | None = None, pulse: str | None = None, period: 
 
 
 def assess(objects: str | os.PathLike[str] | Mapping[str, Any], *, period: Any = None, pulse: str | None = None,
-           record: str | os.PathLike[str] | list[str] | None = None, component: str | int | None = None,
-           pga: float | None = None, scale: float | None = None, direction: Any = None, pga_max: float | None = None,
-           fine: bool = False, overrides: Mapping[str, Any] | None = None) -> dict[str, Any]:
+           shape: str | os.PathLike[str] | None = None, record: str | os.PathLike[str] | list[str] | None = None,
+           component: str | int | None = None, pga: float | None = None, scale: float | None = None,
+           direction: Any = None, pga_max: float | None = None, fine: bool = False, overrides: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Returns the answer of `overturn assess --json`: for each of many objects, whether it topples under one of several
     motions, and the lowest peak acceleration that topples it.
 
     objects: the path of a table, or its columns as a dictionary of arrays or lists of one length.
     period: of the pulse [s]; direction [degree]: numbers, or arrays of them.
+    shape: the path of the table of pulse = "table".
     record: the path of a recorded motion, a pattern of several, or a list of them.
     fine: whether the strengths are searched as by topple(), instead of in steps of 0.5 %.
     overrides: keys of [scene] and their new values, such as {"scene.gravity": 1.62}.
@@ -143,11 +144,12 @@ def assess(objects: str | os.PathLike[str] | Mapping[str, Any], *, period: Any =
     Warns of values that are probably in another unit. Raises ProgramError if the program fails.
     """
     lists = {"period": period, "direction": direction}
-    given = {"pulse": pulse, "component": component, "pga": pga, "scale": scale, "pga_max": pga_max,
+    given = {"pulse": pulse, "shape": shape, "component": component, "pga": pga, "scale": scale, "pga_max": pga_max,
              **{name: ",".join(map(repr, _listed(value))) for name, value in lists.items() if value is not None}}
     records = [] if record is None else _listed(record)
     for name in records:
         _expect_file_names(name, "scene.record")
+    _expect_file_names("" if shape is None else shape, "shape")
     options = [f"--{name.replace('_', '-')}={_option_text(value)}" for name, value in given.items()
                if value is not None]
     options += [f"--record={os.fspath(name)}" for name in records] + ["--fine"] * fine
