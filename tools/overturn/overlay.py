@@ -9,7 +9,6 @@ from overturn.choice import axes_of
 from overturn.regions import SAFE, UNSAFE
 from overturn.result_file import BOUNDARY, open_result
 from overturn.spectrum_planes import PHYSICAL, RECIPROCALS, Plane, scanned_quantity
-from overturn.tables import STRENGTHS
 from overturn.tool import ToolError
 from overturn.units import NEEDING_A_SIZE, axis_of, expect_size, name_of_flips
 
@@ -52,9 +51,9 @@ def open_boundary(path, plane, units):
     if plane.across is None:
         raise ToolError(f"\"{spectrum.filename}\" has one axis, but a boundary is drawn over two. Omit --boundary.")
     with open_result(path, BOUNDARY) as file:
-        if (scanned := scanned_quantity(file)) not in STRENGTHS:
-            raise ToolError(f"\"{file.filename}\" has flips along {scanned}, but those along the strength are drawn on a "
-                            "spectrum. Draw it with plot_boundary.")
+        if "flip_value" in file:
+            raise ToolError(f"\"{file.filename}\" has flips along {scanned_quantity(file)}, but those along the strength are "
+                            "drawn on a spectrum. Draw it with plot_boundary.")
         expect_same_motion(file, spectrum)
         if NEEDING_A_SIZE.intersection(plane.quantities(units)):
             expect_size(file, PHYSICAL)
