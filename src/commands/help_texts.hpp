@@ -175,6 +175,7 @@ and so on. All tools have --help.
   overturn-plot-landing    draws the end state of each point of a spectrum in phase space
   overturn-plot-phase      draws the regions in phase space
   overturn-report          makes a page from the answers of overturn assess
+  overturn-rock            makes a table of blocks from a mesh and its points of contact
   overturn-to-csv          writes a result as a table
   overturn-synthetic-record
                            writes a synthetic recorded motion)";

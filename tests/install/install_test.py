@@ -93,11 +93,13 @@ class AnInstallation(unittest.TestCase):
         answers.write_text(run(self.overturn, "assess", self.folder / "objects.csv", "--period", "0.5", "--json"))
         hazard = self.folder / "hazard.txt"
         hazard.write_text("# pga [g]\n0.1 0.01\n2 1e-6\n")
+        jobs = self.prefix / "share/overturn/jobs"
         outputs = {"plot-spectrum": (self.spectrum, "spectrum.png"), "plot-landing": (self.spectrum, "landing.png"),
                    "plot-history": (history, "history.png"), "plot-boundary": (boundary, "boundary.png"),
                    "plot-accuracy": (accuracy, "accuracy.png"), "plot-phase": ("regions", "phase.png"),
                    "plot-fragility": (recorded, "fragility.png"), "plot-risk": (recorded, hazard, "risk.png"),
-                   "to-csv": (self.spectrum, "spectrum.csv"), "report": (answers, "answers.html")}
+                   "to-csv": (self.spectrum, "spectrum.csv"), "report": (answers, "answers.html"),
+                   "rock": (jobs / "rock.obj", "--contacts", jobs / "rock_contacts.csv", "rock.csv")}
         for tool, (*arguments, output) in outputs.items():
             run(self.prefix / f"bin/overturn-{tool}", *arguments, "-o", self.folder / output)
             self.assertGreater((self.folder / output).stat().st_size, 100, tool)

@@ -1,6 +1,6 @@
 """overturn from Python: the outcome of single blocks (evaluate), the program (run, check, topple, assess), result files
-(open), fragility curves (fragility), rates of overturning at a site (risk), pictures (plot), recorded motions
-(read_record) and those of floors (floor_motion). The other modules are shared by the tools.
+(open), fragility curves (fragility), rates of overturning at a site (risk), blocks from meshes of rocks (rock), pictures
+(plot), recorded motions (read_record) and those of floors (floor_motion). The other modules are shared by the tools.
 
 Modules are imported when they are used, because every tool imports this package."""
 
@@ -12,6 +12,7 @@ from overturn.installation import PACKAGES, explained, overturn_path
 if TYPE_CHECKING:
     from overturn import plot as plot
     from overturn import risk as risk
+    from overturn import rock as rock
     from overturn.datasets import open as open
     from overturn.evaluation import Outcome as Outcome
     from overturn.evaluation import Verdict as Verdict
@@ -36,7 +37,7 @@ _NAMES = {"evaluation": ("evaluate", "Outcome", "Verdict"), "datasets": ("open",
           "friction": ("supported_share",), "floors": ("floor_motion", "FloorMotion"),
           "records": ("read_record", "Record", "RecordError"), "tool": ("ToolError",)}
 _MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
-_MODULES = ("plot", "risk")
+_MODULES = ("plot", "risk", "rock")
 __all__ = [*_MODULE_OF, *_MODULES]
 
 # An installed package contains the compiled module; that of a build is in a folder next to the program.
