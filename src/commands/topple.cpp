@@ -233,7 +233,8 @@ int topple(const ToppleOptions& options)
     if (job.motions.size() > 1) {
         throw Error(exit_code::usage,
                     "--record matches {} files, but topple answers for one motion. "
-                    "Give one file; for a suite, write a job for overturn run.",
+                    "Give one file; for a suite, use overturn assess with a table of one "
+                    "object, or write a job for overturn run.",
                     job.motions.size());
     }
     if (!options.json) {

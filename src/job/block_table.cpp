@@ -124,6 +124,17 @@ void convert_units(BlockTable& blocks, const MotionTraits& motion)
     }
 }
 
+/// Empty cells of quantities that are 0 unless they are given.
+void fill_empty_cells(BlockTable& blocks)
+{
+    for (TableColumn& column : blocks.table.columns) {
+        if (is_one_of(column.name, {"center_offset", "incline"})) {
+            std::ranges::replace_if(
+                column.numbers, [](double value) { return std::isnan(value); }, 0.0);
+        }
+    }
+}
+
 /// Refuses values that are not numbers, or not allowed.
 void expect_values(const BlockTable& blocks, const TableColumn& column, const Quantity& quantity)
 {
@@ -226,6 +237,7 @@ BlockTable read_block_table(const std::string& file, const std::string& folder,
     BlockTable blocks{file, read_table(text_of_file(path, table_file), file, motion.choice), ""};
     const MotionsByName known = by_name(motions);
     convert_units(blocks, motion);
+    fill_empty_cells(blocks);
     for (TableColumn& column : blocks.table.columns) {
         const Quantity* const quantity = find_quantity(column.name);
         // Under a pulse, the motion is a column like any other.

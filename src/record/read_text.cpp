@@ -272,6 +272,17 @@ bool read_statement(const Lines& comment, RecordComponent& component)
     return false;
 }
 
+/// The unit of a comment such as `units = g`, before the samples.
+std::optional<AccelerationUnit> stated_unit(Lines lines)
+{
+    while (lines.next() && is_comment(lines.line())) {
+        if (const auto value = value_of(lines.line(), "units")) {
+            return unit_named(*value);
+        }
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 RecordFile read_text(Lines lines, const RecordOptions& options)
@@ -284,16 +295,17 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
     if (has_points && next_content(ahead)) { // before a unit is asked for, which would not help
         expect_one_or_two_columns(ahead, columns_of(ahead.line()).size());
     }
-    if (!options.unit) {
+    const std::optional<AccelerationUnit> unit = options.unit ? options.unit : stated_unit(lines);
+    if (!unit) {
         lines.refuse_file(
-            "files in text format do not state the unit of the accelerations. Give one of {}: {}.",
+            "the file does not state the unit of the accelerations. Give one of {}: {}.",
             fmt::join(names_of<AccelerationUnit>, ", "), how_to_state("units"));
     }
     ahead = lines;
     const bool speaks_of_accelerations = next_line(
         ahead, [](std::string_view line) { return is_comment(line) && contains(line, "acc"); });
     RecordComponent component;
-    component.unit = *options.unit;
+    component.unit = *unit;
     component.header = kept_lines(lines, std::string_view::npos, is_comment);
     EvenTimes times;
     std::size_t columns = 0;
@@ -302,7 +314,7 @@ RecordFile read_text(Lines lines, const RecordOptions& options)
             if (read_statement(lines, component)) {
                 continue;
             }
-            expect_unit(lines, *options.unit);
+            expect_unit(lines, *unit);
             if (!speaks_of_accelerations) {
                 expect_no_other_motion(lines);
             }

@@ -400,12 +400,27 @@ std::optional<LeastWidths> least_widths_of(const Problem& problem,
     while (!is_possible(least.end) && least.end > 1.01 * own) {
         least.end = std::midpoint(own, least.end);
     }
+    if (!is_possible(least.end)) {
+        return std::nullopt;
+    }
     in_threads(
         lines.size(), threads,
         [&](std::size_t i) {
-            const VerdictRanges ranges =
-                verdict_ranges(problem.scene, lines[i], own, least.end, nullptr);
-            least.safe_from[i] = ranges.safe_from().value_or(infinity);
+            const auto safe_between = [&](double first, double last) {
+                return verdict_ranges(problem.scene, lines[i], first, last, nullptr)
+                    .safe_from()
+                    .value_or(last);
+            };
+            double from = safe_between(own, least.end);
+            while (from < least.end) { // some above may topple in ranges narrower than the steps
+                const double last = std::min(from * (1 + range_of_finer_search), least.end);
+                const double finer = safe_between(from, last);
+                if (!(finer > from)) {
+                    break;
+                }
+                from = finer;
+            }
+            least.safe_from[i] = from < least.end ? from : infinity;
         },
         nullptr);
     std::ranges::sort(least.safe_from);

@@ -251,7 +251,9 @@ void PointRun::let_slip(const Numerics& numerics, const Outputs& outputs, Outcom
         Outcome& outcome = outcomes[i];
         const Point& at = point(i);
         outcome.slide = outcome.slide_peak = outcome.has(status::free_fall) ? unknown : 0;
-        if (outcome.has(status::free_fall) || outcome.to_stick <= at.friction) {
+        // A strength of exactly the friction, such as both 0.3, is scaled with roundings.
+        const double sticks_up_to = at.friction * (1 + 4 * std::numeric_limits<double>::epsilon());
+        if (outcome.has(status::free_fall) || outcome.to_stick <= sticks_up_to) {
             continue;
         }
         // A block that stays flat has no time of its own: its slide is in proportion to the square

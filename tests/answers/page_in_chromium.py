@@ -59,7 +59,7 @@ class Pages(unittest.TestCase):
         requests = [message["params"]["request"]["url"] for message in messages
                     if message["method"] == "Network.requestWillBeSent"]
         self.assertEqual(requests, [self.chromium.current_url])
-        names = [row.text for row in self.chromium.find_elements(By.CSS_SELECTOR, "tbody td:first-child")]
+        names = [row.text.split("\n")[0] for row in self.chromium.find_elements(By.CSS_SELECTOR, "tbody td:first-child")]
         self.assertEqual(names, report.titles_of(answers["objects"]))
         verdicts = [cell.text for cell in self.chromium.find_elements(By.CSS_SELECTOR, "tbody td.verdict")]
         self.assertEqual(verdicts, [row["verdict"] for row in answers["objects"]])
@@ -71,6 +71,16 @@ class Pages(unittest.TestCase):
         wide, visible = self.chromium.execute_script(
             "const page = document.documentElement; return [page.scrollWidth, page.clientWidth]")
         self.assertLessEqual(wide, visible)
+
+    def assert_fits_on_paper(self):
+        """Nothing is wider than a sheet of A4 between its margins, 180 mm."""
+        self.chromium.set_window_size(1200, 900)
+        self.chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+        self.chromium.execute_script("document.body.style.width = '180mm'")
+        table, page = self.chromium.execute_script(
+            "return [document.querySelector('table').offsetWidth, document.body.clientWidth]")
+        self.chromium.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+        self.assertLessEqual(table, page)
 
     def pages_in_print(self):
         """The number of printed pages."""
@@ -85,18 +95,20 @@ class Pages(unittest.TestCase):
         self.assertLessEqual(self.pages_in_print(), 2)
         self.assert_fits(1200)
         self.assert_fits(375)
+        self.assert_fits_on_paper()
 
     def test_names_are_texts_and_nothing_is_cut_off(self):
         (self.folder / "objects.csv").write_text(TABLE)
-        answers = self.opened("objects.csv", "--period", "0.5", "--pga", "0.4")
+        answers = self.opened("objects.csv", "--period", "0.3,0.5", "--pga", "0.4")
         self.assert_sound(answers)
         self.assert_fits(1200)
         self.assert_fits(375)
+        self.assert_fits_on_paper()
 
     def test_without_a_strength(self):
         answers = self.opened(ROOT / "jobs" / "statues.csv", "--record", ROOT / "jobs" / "synthetic.AT2")
         self.assertEqual(self.chromium.get_log("browser"), [])
-        names = [row.text for row in self.chromium.find_elements(By.CSS_SELECTOR, "tbody td:first-child")]
+        names = [row.text.split("\n")[0] for row in self.chromium.find_elements(By.CSS_SELECTOR, "tbody td:first-child")]
         self.assertEqual(names, report.titles_of(answers["objects"]))
 
 

@@ -202,9 +202,16 @@ def least_widths(folder, row, motions, asked, end):
     found = []
     for motion in motions:
         for direction in (0,) if is_symmetric(row) else (0, 180):
-            answer = run_in(folder, OVERTURN, "topple", "--json", *options, *motion["options"], "--pga", repr(asked),
-                            "--direction", direction, "--vary", "width", repr(row["width"]), repr(end))
-            found.append(json.loads(answer)["safe_from"])
+            def safe_between(first, last):
+                answer = run_in(folder, OVERTURN, "topple", "--json", *options, *motion["options"], "--pga", repr(asked),
+                                "--direction", direction, "--vary", "width", repr(first), repr(last))
+                value = json.loads(answer)["safe_from"]
+                return last if value is None else value
+
+            least, finer = row["width"], safe_between(row["width"], end)
+            while least < finer < end:  # again in finer steps
+                least, finer = finer, safe_between(finer, min(finer * 1.1, end))
+            found.append(finer if finer < end else None)
     return sorted(found, key=lambda value: math.inf if value is None else value)
 
 

@@ -155,7 +155,7 @@ class Assess(Scratch):
                                             "--json").stdout) for period in ("0.5", "0.8") for direction in ("0", "180")]
         self.assertEqual(widths["safe_from"], sorted(answer["safe_from"] for answer in answers))
         self.assertGreater(widths["safe_from"][-1], 0.4)
-        self.assertIn(f"would stand with a width from {math.ceil(widths['safe_from'][-1] * 1e4) / 1e4:.4f} m on in all cases",
+        self.assertIn(f"With more width, it stands from {math.ceil(widths['safe_from'][-1] * 1e4) / 1e4:.4f} m in all cases",
                       self.overturn("assess", "objects.csv", *motion).stdout)
         wide = self.rows(*motion)["low"]
         self.assertNotEqual(wide["verdict"], "topples")
@@ -194,6 +194,23 @@ class Assess(Scratch):
                     self.assertAlmostEqual(found[name][key], value, places=12)
                 else:
                     self.assertEqual(found[name][key], value)
+
+    def test_takes_an_empty_cell_of_an_offset_or_incline_as_zero(self):
+        self.write_table("name,width,height,incline,center_offset\na,0.2,0.5,0.03,0.01\nb,0.4,1.2,0,0\n")
+        expected = self.rows("--period", "0.5", "--pga", "0.4")
+        self.write_table("name,width,height,incline,center_offset\na,0.2,0.5,0.03,0.01\nb,0.4,1.2,,\n")
+        found = self.rows("--period", "0.5", "--pga", "0.4")
+        self.assertEqual(found, expected)
+        self.assertEqual((found["b"]["incline"], found["b"]["cases"]), (0, 1))
+
+    def test_of_a_floor_says_that_pga_is_not_that_of_the_ground(self):
+        self.write_table(TABLE)
+        samples = "".join(f"{i / 100} {0.5 * math.sin(0.3 * i)}\n" for i in range(100))
+        (self.folder / "floor.txt").write_text(f"# units = g\n# motion_of = floor\n# ground_pga = 0.2\n{samples}")
+        for strength, is_said in (("--pga", True), ("--scale", False)):
+            found = self.overturn("assess", "objects.csv", "--record", "floor.txt", strength, "1")
+            self.assert_exit(found, 0)
+            self.assertEqual("where ground_pga = 0.2 g (for this earthquake, give scale = 1)" in found.stderr, is_said)
 
     def test_refuses_ambiguous_tables(self):
         for table, words in (

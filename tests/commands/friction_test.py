@@ -206,6 +206,17 @@ class Friction(Scratch):
             self.assert_exit(shown, 0)
             self.assertIn(words, shown.stdout)
 
+    def test_equal_to_the_strength_is_enough_although_the_scale_is_rounded(self):
+        peak = 0.56
+        (self.folder / "r.txt").write_text(f"# units = g\n0.0 0\n0.1 {peak}\n0.2 -0.3\n0.3 0\n")
+        rounded_up = [pga / 100 for pga in range(5, 80) if pga / 100 / peak * peak > pga / 100]
+        self.assertGreater(len(rounded_up), 3)
+        for pga in rounded_up:
+            answer = self.overturn("topple", "--width", "0.6", "--height", "0.5", "--friction", str(pga), "--record",
+                                   "r.txt", "--pga", str(pga), "--no-search")
+            self.assert_exit(answer, 0)
+            self.assertIn("does not slip here", answer.stdout)
+
     def test_is_refused_where_it_makes_no_sense(self):
         plain = {"fields": ["region"]}
         self.refused("run", "linear theory has no forces of the contact", scene='pulse = "one_sine"\ntheory = "linear"',

@@ -48,8 +48,9 @@ void use_as_shape(std::string_view bytes, const std::string& name)
         const Table table = read_table_of({"time", "value"}, bytes, name);
         demand(table.columns.size() == 2, "the shape of a pulse does not have two columns");
         if (table.columns[0].first_text < 0 && table.columns[1].first_text < 0) {
-            const Accelerogram& shape =
-                *pulse_of_table(table.columns[0].numbers, table.columns[1].numbers).pulse.shape;
+            const ScaledTable scaled =
+                pulse_of_table(table.columns[0].numbers, table.columns[1].numbers);
+            const Accelerogram& shape = *scaled.pulse.shape;
             demand(std::ranges::is_sorted(shape.phases(), std::ranges::less_equal()) &&
                        shape.peak() == 1,
                    "the shape of a pulse does not ascend to the peak 1");

@@ -125,8 +125,9 @@ TEST(TheKeysOfAJob, AreTheQuantitiesOfItsPoints)
         EXPECT_EQ(count("plane"), quantity.is_coordinate() && !is_motion) << quantity.name;
         EXPECT_EQ(count("block"), quantity.role == Role::block) << quantity.name;
     }
-    EXPECT_EQ(keys_of(""), (std::vector<std::string_view>{"title", "scene", "plane", "block",
-                                                          "blocks", "numerics", "output"}));
+    EXPECT_EQ(keys_of(""),
+              (std::vector<std::string_view>{"title", "scene", "plane", "block", "blocks",
+                                             "numerics", "output", "boundary"}));
     EXPECT_EQ(keys_of("no_table"), std::vector<std::string_view>{});
 }
 

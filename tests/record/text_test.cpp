@@ -249,6 +249,22 @@ TEST(TimeStep, IsPositiveEvenIfTheTimesHaveFewDigits)
     EXPECT_EQ(component_of("0.6 0\n1 0\n", in_g).time_step, 0.4);
 }
 
+constexpr RecordOptions nothing_given{};
+constexpr RecordOptions only_a_time_step{.time_step = 0.01, .unit = {}};
+
+TEST(TheUnit, IsThatOfACommentUnlessItIsGiven)
+{
+    EXPECT_EQ(component_of("# units = m/s2\n0 1\n1 2\n", nothing_given).unit,
+              AccelerationUnit::m_per_s2);
+    EXPECT_EQ(component_of("# by hand\n% units = gal\n1\n2\n", only_a_time_step).unit,
+              AccelerationUnit::cm_per_s2);
+    EXPECT_EQ(component_of("# units = g\n0 1\n1 2\n", in_g).unit, AccelerationUnit::g);
+    for (const char* text : {"# units = feet\n0 1\n1 2\n", "0 1\n# units = g\n1 2\n"}) {
+        EXPECT_NE(refusal_of(text, nothing_given).find("does not state the unit"),
+                  std::string::npos);
+    }
+}
+
 TEST(ACommaBetweenDigits, SeparatesColumnsOnlyIfTheFileHasADecimalPoint)
 {
     EXPECT_EQ(component_of("0,0\n0.5,1\n", in_g).acceleration, (Values{0, 1}));
@@ -278,19 +294,16 @@ TEST(DecimalCommas, AreRefusedInAnyColumnsAndWithAnySeparator)
     }
 }
 
-constexpr RecordOptions nothing_given{};
-constexpr RecordOptions only_a_time_step{.time_step = 0.01, .unit = {}};
-
 // clang-format off
 TEST(Text, IsRefusedWithFileLineAndReason)
 {
     for (const auto& [name, text, options, message] :
          std::vector<std::tuple<const char*, std::string, RecordOptions, const char*>>{
         {"AMissingUnit", "0.1\n", only_a_time_step,
-            "a.txt: files in text format do not state the unit of the accelerations. Give one of g, m/s2, cm/s2, mm/s2, "
+            "a.txt: the file does not state the unit of the accelerations. Give one of g, m/s2, cm/s2, mm/s2, "
             "gal: scene.units in a job, --set scene.units=... on the command line, or units=... in Python."},
         {"AMissingUnitOfTwoColumns", "0 0.1\n", nothing_given,
-            "a.txt: files in text format do not state the unit of the accelerations. Give one of g, m/s2, cm/s2, mm/s2, "
+            "a.txt: the file does not state the unit of the accelerations. Give one of g, m/s2, cm/s2, mm/s2, "
             "gal: scene.units in a job, --set scene.units=... on the command line, or units=... in Python."},
         {"AMissingTimeStep", "# a\n0.1\n", in_g,
             "a.txt:2: the file has one column, so the time step is not known. Give two columns with time in seconds first, "

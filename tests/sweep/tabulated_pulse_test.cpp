@@ -365,7 +365,7 @@ TEST(TabulatedPulse, FlipsWhereThePulseOfTheseLinesDoes)
         ASSERT_FALSE(table.empty());
         for (std::size_t i = 0; i < table.size(); ++i) {
             // Either flip is known to 1e-12 of its size.
-            EXPECT_NEAR(table[i].amplitude() / pulse[i].amplitude(), 1, 4e-12);
+            EXPECT_NEAR(table[i].value() / pulse[i].value(), 1, 4e-12);
             EXPECT_EQ(table[i].region_above, pulse[i].region_above);
         }
     }

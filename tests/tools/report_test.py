@@ -78,11 +78,11 @@ class TestReport(InAFolder):
     def test_says_how_wide_the_worst_object_must_be(self):
         answers = self.answers("--period", "0.3,0.5", "--pga", "0.4")
         self.assertEqual(answers["least_widths"]["object"], "slim & tall")
-        for widths, words in (([0.31, 0.40001], "It would stand with a base 0.4001 m wide in all cases, all else equal; "
-                                                "0.3100 m are enough in 1 of 2."),
-                              ([0.31, None], "No base up to 0.6 m wide would be enough in all cases"),
-                              ([0.31], "It would stand with a base 0.3100 m wide, all else equal.")):
-            answers["least_widths"].update(safe_from=widths, end_of_search=0.6)
+        for widths, words in (([0.31, 0.40001], "With more width and all else equal, it stands from 0.4001 m in all cases, "
+                                                "from 0.3100 m in 1 of 2, as searched up to 0.6 m in steps of 0.001 m"),
+                              ([0.31, None], "Wider ones topple, too, as searched up to 0.6 m"),
+                              ([0.31], "With more width and all else equal, it stands from 0.3100 m, as searched up to")):
+            answers["least_widths"].update(safe_from=widths, end_of_search=0.6, step_of_search=0.001)
             self.assertIn("slim & tall is 0.2 m wide. " + words, " ".join("".join(self.page(answers).text).split()))
         answers["least_widths"] = None
         self.assertNotIn("m wide", "".join(self.page(answers).text))

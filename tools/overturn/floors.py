@@ -41,14 +41,14 @@ class FloorMotion:
     motion_of: ClassVar[str] = FLOOR
 
     def to_text(self, path: str | os.PathLike[str]) -> None:
-        """Writes a text of two columns, times [s] and accelerations over g, as a record of a job (scene.units = "g").
-        Its comments state that it is the motion of a floor, and the PGA of the ground.
+        """Writes a text of two columns, times [s] and accelerations over g, as a record of a job. Its comments state the
+        unit, that it is the motion of a floor, and the PGA of the ground.
 
         Raises OutputError if the file cannot be written, or another one exists."""
         ground = [] if self.ground_pga is None else [f"# ground_pga = {self.ground_pga!r}"]
         times = self.time_step * np.arange(self.acceleration.size)
         rows = [f"{time!r} {value!r}" for time, value in zip(times.tolist(), self.acceleration.tolist())]
-        write_text(path, "\n".join([TITLE, f"# motion_of = {FLOOR}", *ground, *rows, ""]), "a motion of a floor",
+        write_text(path, "\n".join([TITLE, "# units = g", f"# motion_of = {FLOOR}", *ground, *rows, ""]), "a motion of a floor",
                    lambda beginning: beginning.startswith(TITLE.encode()))
 
 

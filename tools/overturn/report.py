@@ -58,11 +58,14 @@ table { border-collapse: collapse; width: 100%; font: 9.5pt/1.35 "Helvetica Neue
 th, td { text-align: right; padding: 0.2rem 0.45rem; border-bottom: 1px solid #ccc; vertical-align: top; }
 th:first-child, td:first-child, td.text, th.text { text-align: left; }
 td { white-space: nowrap; } td:first-child, td.text { white-space: normal; overflow-wrap: anywhere; min-width: 5rem; }
+td:first-child { min-width: 9rem; } td .note { font-size: inherit; }
 .wide { overflow-x: auto; }
 thead { display: table-header-group; }
 .verdict { font-weight: bold; } .topples { color: {{ topples }}; }
 svg { width: 100%; height: auto; } .note { color: #444; font-size: 9.5pt; }
-@media print { body { margin: 0; max-width: none; font-size: 9.5pt; } table { font-size: 8.5pt; } tr, li, svg { break-inside: avoid; }
+@media print { body { margin: 0; max-width: none; font-size: 9.5pt; } .wide { overflow-x: visible; }
+  table { font-size: 7.5pt; } td:first-child { min-width: 11rem; } td.text { min-width: 5rem; }
+  h2 { margin-top: 0.8rem; } p, ul, ol { margin: 0.4rem 0; } svg { max-height: 21rem; } th, td { padding: 0.1rem 0.25rem; } td { white-space: normal; } tr, li, svg { break-inside: avoid; }
   @page { size: A4; margin: 15mm; } }
 </style>
 </head>
@@ -75,13 +78,14 @@ svg { width: 100%; height: auto; } .note { color: #444; font-size: 9.5pt; }
 <p>{{ toppling|length }} of {{ objects|length }} objects {{ 'topples' if toppling|length == 1 else 'topple' }}{% if toppling[0].cases > 1 %}
 in at least one of up to {{ most_cases }} cases (motions, periods and directions){% endif %}:</p>
 <ol>{% for each in toppling[:20] %}
-<li><b>{{ each.title }}</b>: from {{ each.topples_from|strength }}{% if each.cases > 1 %}, in
+<li><b>{{ each.title }}</b>{% if each.description %} ({{ each.description }}){% endif %}: from {{ each.topples_from|strength }}{% if each.cases > 1 %}, in
 {{ (100 * each.share_toppling)|round|int }} % of its cases{% endif %}</li>{% endfor %}</ol>
 {% if toppling|length > 20 %}<p>The others follow in the table.</p>{% endif %}
-{% if widths %}<p>{{ widths.object }} is {{ '%.4g'|format(widths.width) }} m wide. {% if widths.all %}It would stand with a base
-{{ widths.all|width }} m wide{% if widths.cases > 1 %} in all cases{% endif %}, all else equal{% if widths.most %}; {{ widths.most|width }} m
-are enough in {{ widths.most_cases }} of {{ widths.cases }}{% endif %}.{% else %}No base up to {{ '%.4g'|format(widths.end) }} m wide would be
-enough in all cases, all else equal.{% endif %}</p>{% endif %}
+{% if widths %}<p>{{ widths.object }} is {{ '%.4g'|format(widths.width) }} m wide. {% if widths.all %}With more width and all else
+equal, it stands from {{ widths.all|width }} m{% if widths.cases > 1 %} in all cases{% endif %}{% if widths.most %}, from {{
+widths.most|width }} m in {{ widths.most_cases }} of {{ widths.cases }}{% endif %}{% else %}Wider ones topple, too{% endif %}, as searched up
+to {{ '%.4g'|format(widths.end) }} m in steps of {{ '%.1g'|format(widths.step) }} m: single widths between them may topple. Allow a
+margin.</p>{% endif %}
 {% else %}<p>None of {{ objects|length }} objects is found to topple.{% if undecided %} Some are undecided, see below.{% endif %}</p>
 {% endif %}
 {% if near %}<p>Near a verdict: {% for each in near %}{{ each.title }} ({{ each.note }}){{ '; ' if not loop.last }}{% endfor %}.</p>{% endif %}
@@ -94,7 +98,7 @@ alpha</th>{% endif %}<th>lifts from [g]</th>{% if has_slip %}<th>slides from [g]
 [g]</th>{% if most_cases > 1 %}<th>median [g]</th>{% endif %}{% if has_slip and asked %}<th>slides [mm]</th>{% endif %}<th
 class="text">note</th></tr></thead>
 <tbody>{% for each in objects %}
-<tr><td>{{ each.title }}</td>{% if asked %}<td class="text verdict{{ ' topples' if each.verdict == 'topples' }}">{{ each.verdict }}</td>
+<tr><td>{{ each.title }}{% if each.description %}<br><span class="note">{{ each.description }}</span>{% endif %}</td>{% if asked %}<td class="text verdict{{ ' topples' if each.verdict == 'topples' }}">{{ each.verdict }}</td>
 <td>{{ (100 * each.share_toppling)|round|int }} %</td><td>{{ each|tilt }}</td>{% endif %}<td>{{ each.lifts_from|number('never') }}</td>{%
 if has_slip %}<td>{{ each.slides_from|number('lifts first') }}</td>{% endif %}<td>{{
 each.topples_from|number(each|above_search) }}</td>{% if most_cases > 1 %}<td>{{
@@ -109,10 +113,13 @@ endif %}<td class="text">{{ each.note }}</td></tr>{% endfor %}
 open_ended|map(attribute='title')|join(', ') }}.</li>{% endif %}
 <li>Strengths are searched in {% if fine %}fine steps: only very narrow{% else %}steps of at most 0.5 %: narrower{% endif %} ranges
 that topple an object may be missed.</li>
-{% for each in assumptions %}<li>{{ each }}</li>
+{% if is_floor %}<li>The motion of a floor follows from a model of the building: other periods, damping and shapes of its modes
+give other verdicts.</li>
+{% endif %}{% for each in assumptions %}<li>{{ each }}</li>
 {% endfor %}{% for each in warnings %}<li>Check the table: {{ each }}.</li>
 {% endfor %}</ul>
-<p class="note">overturn {{ version }}, table {{ table }}. Strengths are {{ measure }} over g = {{ gravity }} m/s&sup2;.</p>
+<p class="note">overturn {{ version }}, table {{ table }}. Strengths are {{ measure }} over g = {{ gravity }} m/s&sup2;.
+At the tilt alpha, an object is balanced on its edge.</p>
 </body>
 </html>
 """
@@ -165,6 +172,16 @@ def titles_of(rows):
     return [str(row[text]) if text else f"object {i + 1}" for i, row in enumerate(rows)]
 
 
+def descriptions_of(rows):
+    """Returns what else the table says of the objects: the other texts, and the size."""
+    def describe(row):
+        texts = [value for key, value in row.items()
+                 if key not in ("verdict", "note", "title") and isinstance(value, str) and value != row["title"]]
+        size = [f"{row['width']:g} m x {row['height']:g} m"] if row.get("width") and row.get("height") else []
+        return ", ".join([*filter(None, texts), *size])
+    return [describe(row) for row in rows]
+
+
 def draw(rows, asked, measure):
     """Draws the strengths at which nothing is found to topple an object, what is undecided, and where it topples."""
     shown = rows[:MOST_BARS]
@@ -182,6 +199,9 @@ def draw(rows, asked, measure):
             axes.barh(i, min(topples, searched) - unknown, left=unknown, color=REGIONS[UNDECIDED][2])
         if topples < right:
             axes.barh(i, right - topples, left=topples, color=REGIONS[TOPPLES][2])
+        if asked and row["verdict"] not in ("topples", "undecided") and topples < asked:  # it stands between others
+            first, last = asked * (row["factor_below"] or 0), min(asked * (row["factor_above"] or math.inf), searched)
+            axes.barh(i, last - first, left=first, color=REGIONS[STANDS][2])
         if row["end_of_search"] < right:
             axes.barh(i, right - row["end_of_search"], left=row["end_of_search"], color="white", edgecolor="0.6",
                       hatch="///", linewidth=0)
@@ -192,7 +212,7 @@ def draw(rows, asked, measure):
     if asked:
         axes.axvline(asked, color="black", linewidth=1.2, linestyle=(0, (4, 2)))
     handles = [Patch(facecolor=REGIONS[STANDS][2], edgecolor="0.4", label="not found to topple"),
-               Patch(color=REGIONS[TOPPLES][2], label="at or above the lowest strength that topples")]
+               Patch(color=REGIONS[TOPPLES][2], label="from the lowest strength that topples it on")]
     if any(row["undecided_from"] is not None for row in shown):
         handles.append(Patch(color=REGIONS[UNDECIDED][2], label="undecided"))
     if any(row["end_of_search"] < right for row in shown):
@@ -217,7 +237,7 @@ def widths_of(answers):
         return None
     values = least["safe_from"]
     most = math.floor(0.9 * len(values))
-    return {"object": least["object"], "width": least["width"], "end": least["end_of_search"], "cases": len(values),
+    return {"object": least["object"], "width": least["width"], "end": least["end_of_search"], "step": least["step_of_search"], "cases": len(values),
             "all": values[-1], "most": values[most - 1] if 0 < most < len(values) else None, "most_cases": most}
 
 
@@ -226,19 +246,24 @@ def page_of(answers):
     rows = answers["objects"]
     for row, title in zip(rows, titles_of(rows)):
         row["title"] = title
+    for row, description in zip(rows, descriptions_of(rows)):
+        row["description"] = description
     motion = answers["motion"]
     is_floor = answers["motion_of"] == "floor"
     measure = "peak floor acceleration (PFA)" if is_floor else "peak ground acceleration (PGA)"
     pulse = f"pulse of {motion['shape']}" if "shape" in motion else f"{motion.get('pulse', '').replace('_', '-')} pulse"
     text = (f"{pulse}, period {', '.join(f'{each:g}' for each in motion['periods'])} s"
-            if "pulse" in motion else f"{len(motion['records'])} records: {', '.join(motion['records'])}")
+            if "pulse" in motion else f"{len(motion['records'])} record{'s' * (len(motion['records']) > 1)}: {', '.join(motion['records'])}")
     is_asked = rows[0]["verdict"] is not None
-    asked = answers["pga"] if is_asked else None
+    largest = max(row["pga"] for row in rows) if is_asked else None
+    has_one = answers["pga"] is not None or len(motion.get("records", [])) == 1  # strength of all motions
+    asked = largest if has_one else None
     has_slip = "slides_from" in rows[0]
     environment = Environment(autoescape=True)
     environment.filters.update(number=number, above_search=above_search, tilt=tilt, slide=slide,
                                width=lambda value: f"{math.ceil(value * 1e4) / 1e4:.4f}", strength=lambda value: f"{number(value, '')} g")
-    measured = f"scale {answers['scale']:g} of every record" if answers["scale"] else f"{measure} {asked} g"
+    measured = (f"scale {answers['scale']:g} of every record, {'' if has_one else 'up to '}{largest:.4g} g"
+                if answers["scale"] else f"{measure} {answers['pga']} g")
     return environment.from_string(PAGE).render(
         made_by=Markup(MADE_BY), title="Which objects topple?", motion=text, strength=measured if is_asked else "", asked=is_asked, objects=rows,
         toppling=[row for row in rows if row["verdict"] == "topples"],
@@ -248,7 +273,7 @@ def page_of(answers):
         fine=answers["search"] == "fine", open_ended=[row for row in rows if row["topples_from"] is None],
         most_cases=max(row["cases"] for row in rows), has_slip=has_slip, picture=Markup(draw(rows, asked, measure)),
         assumptions=(*ASSUMPTIONS, WITH_FRICTION if has_slip else WITHOUT_FRICTION), warnings=answers["warnings"],
-        version=answers["program_version"], table=answers["table"], measure=measure, widths=widths_of(answers), gravity=answers["gravity"],
+        version=answers["program_version"], table=answers["table"], measure=measure, widths=widths_of(answers), is_floor=is_floor, gravity=answers["gravity"],
         topples=REGIONS[TOPPLES][2])
 
 

@@ -114,9 +114,13 @@ struct LeastWidths {
     std::vector<double> safe_from;
 };
 
+/// The range above a least width that is searched again, in as many steps as all, over the width.
+inline constexpr double range_of_finer_search = 0.1;
+
 /// Of the object of these cases; nullopt if the table does not have its width. Height, offsets and
 /// friction stay, and so does the share of r_max, if that is given instead of r. The search is that
-/// of ranges_along(), up to three times the width, if such a block is possible.
+/// of ranges_along(), up to three times the width, if such a block is possible, and then in
+/// finer steps above each width that is found, until nothing topples there.
 std::optional<LeastWidths> least_widths_of(const Problem& problem,
                                            std::span<const ObjectCase> cases, int threads);
 

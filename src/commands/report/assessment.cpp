@@ -3,6 +3,7 @@
 #include "job.hpp"
 #include "print.hpp"
 #include "topple_ranges.hpp"
+#include "varied_answer.hpp"
 
 #include "overturn/file/provenance.hpp"
 #include "overturn/text/mapped.hpp"
@@ -187,7 +188,8 @@ std::vector<PrintedColumn> printed_columns(const Job& job, const std::vector<Obj
         });
     };
     const auto moves = [](double pga) {
-        return std::isinf(pga) ? std::string("never") : fmt::format("{:.4f} g", pga);
+        return std::isinf(pga) ? std::string("never")
+                               : fmt::format("{:.4f} g", rounded_down(pga, decimals));
     };
     const bool has_strength = answers.front().verdict.has_value();
     const bool may_slip = job.problem.grid.may_slip();
@@ -231,28 +233,27 @@ std::vector<PrintedColumn> printed_columns(const Job& job, const std::vector<Obj
 }
 
 /// How wide the object must be to stand in all cases, and in all but one or two.
-std::string widths_text(const std::string& name, const LeastWidths& widths)
+std::string widths_text(const std::string& name, const Scene& scene, const LeastWidths& widths)
 {
     const std::size_t cases = widths.safe_from.size();
     std::vector<std::string> parts;
     for (std::size_t i = 0; i < std::min<std::size_t>(cases, 3); ++i) {
         const double from = widths.safe_from[cases - 1 - i];
         if (!std::isinf(from)) {
-            const std::string count = i > 0       ? fmt::format("in {} of {}", cases - i, cases)
-                                      : cases > 1 ? "in all cases"
-                                                  : "";
-            parts.push_back(fmt::format("from {:.4f} m on {}", rounded_up(from, decimals), count));
+            parts.push_back(fmt::format("from {:.4f} m{}", rounded_up(from, decimals),
+                                        i > 0       ? fmt::format(" in {} of {}", cases - i, cases)
+                                        : cases > 1 ? " in all cases"
+                                                    : ""));
         }
     }
-    if (parts.empty()) {
-        return fmt::format("{} is {:.4g} m wide, and no width up to {:.4g} m is enough.", name,
-                           widths.width, widths.end);
-    }
-    std::string text = fmt::format("{}", fmt::join(parts, ", "));
-    text.erase(text.find_last_not_of(' ') + 1);
+    const double step = step_of_search(scene, {&quantity("width"), widths.width, widths.end});
     return fmt::format(
-        "{} is {:.4g} m wide, and would stand with a width {}, as searched up to {:.4g} m.", name,
-        widths.width, text, widths.end);
+        "{} is {:.4g} m wide. {}, as searched up to {:.4g} m in steps of {:.1g} m, and "
+        "finer ones near the result: single widths between them may topple.",
+        name, widths.width,
+        parts.empty() ? "Wider ones topple, too"
+                      : fmt::format("With more width, it stands {}", fmt::join(parts, ", ")),
+        widths.end, step);
 }
 
 } // namespace
@@ -302,8 +303,8 @@ void print_assessment(const Job& job, const std::vector<ObjectAnswer>& answers,
                                  100 * toppling_step, 100 * width_of_lowest),
                has_strength ? " The tilt is the largest, over alpha." : "");
     if (widths) {
-        fmt::print("{}\n",
-                   widths_text(printable(name_of_object(*job.blocks, widths->object)), *widths));
+        fmt::print("{}\n", widths_text(printable(name_of_object(*job.blocks, widths->object)),
+                                       scene, *widths));
     }
 }
 
@@ -360,6 +361,8 @@ std::string json_of(const Job& job, const std::vector<ObjectAnswer>& answers,
         least_widths["object"] = name_of_object(*job.blocks, widths->object);
         least_widths["width"] = widths->width;
         least_widths["end_of_search"] = widths->end;
+        least_widths["step_of_search"] =
+            step_of_search(scene, {&quantity("width"), widths->width, widths->end});
         least_widths["safe_from"] =
             mapped(widths->safe_from, [](double each) { return known(each); });
     }

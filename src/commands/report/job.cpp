@@ -396,6 +396,12 @@ std::vector<std::string> warnings_on(const Job& job)
     for (const RecordedMotion& motion : job.motions) {
         std::ranges::copy_if(motion.remarks, std::back_inserter(warnings),
                              [&](const auto& remark) { return !is_one_of(remark, warnings); });
+        if (motion.ground_pga && grid.find("pga") != nullptr) {
+            warnings.push_back(fmt::format(
+                "pga is the peak of the floor, {:.4g} g in {} as it stands, where ground_pga = "
+                "{:.4g} g (for this earthquake, give scale = 1)",
+                motion.measures.pga, motion.file, *motion.ground_pga));
+        }
     }
     for (const TableColumn& column :
          job.blocks ? job.blocks->table.columns : std::vector<TableColumn>()) {
