@@ -128,6 +128,18 @@ class TestAField(Field):
         for share in (topples, unknown):
             self.assertAlmostEqual(share, 0.9 / 5.9, delta=0.02)  # six bands with gaps
 
+    def test_along_an_axis_of_few_values_has_a_panel_with_a_line_for_each(self):
+        values = np.arange(36.0).reshape(3, 12) + 1
+        self.spectrum_with(np.full((3, 12), S), "peak", values)
+        panels = overturn.plot.spectrum(self.folder / "spectrum.h5", field="peak")
+        self.assertEqual([len(panel.lines) for panel in panels], [1, 1, 1])
+        for panel, row in zip(panels, values):
+            np.testing.assert_array_equal(panel.lines[0].get_data(), [np.arange(1.0, 13), row])
+            self.assertEqual(panel.get_ylim(), panels[0].get_ylim())
+        titles = [panel.get_title() for panel in panels]
+        self.assertEqual(len(set(titles)), 3, titles)
+        pyplot.close(panels[0].figure)
+
     def test_is_that_of_the_program(self):
         self.compute()
         panels = overturn.plot.spectrum(self.folder / "spectrum.h5", field="peak")

@@ -26,13 +26,15 @@ class Plane:
         self.file, self.index, self.across, self.up = file, index, across, up
         self.height = file.sizes[up]
 
-    def without_single_values(self):
-        """Returns the plane of the only axis of several values, if one of two has a single value."""
-        sizes = [(self.file.sizes[name], name) for name in (self.across, self.up) if name is not None]
-        if len(sizes) < 2 or min(sizes)[0] > 1:
-            return self
-        single, other = (name for _, name in sorted(sizes, key=lambda each: each[0]))
-        return Plane(self.file, {**self.index, single: 0}, None, other)
+    def lines(self, most):
+        """Returns the planes along the axis of many values alone, one for each value of the other, if that has at most so
+        many."""
+        if self.across is None:
+            return [self]
+        (fewer, few), (more, many) = sorted((self.file.sizes[name], name) for name in (self.across, self.up))
+        if fewer > most or (fewer > 1 and more <= FEW):
+            return [self]
+        return [Plane(self.file, {**self.index, few: place}, None, many) for place in range(fewer)]
 
     def read(self, name, rows=slice(None)):
         """Reads some rows of a field."""

@@ -28,9 +28,14 @@ def length_of(axis):
     return (box.width if axis.axis_name == "x" else box.height) / axis.axes.figure.dpi
 
 
+def tick_text(value, _place=None):
+    """Returns a number in few letters: beside an axis is room for five."""
+    return f"{value:g}" if value == 0 or abs(value) >= 1e-3 else f"{value:.0e}".replace("e-0", "e-")
+
+
 def name_ticks(axis):
     """Labels the ticks of an axis whose scale and limits are set."""
-    axis.set_major_formatter("{x:g}")
+    axis.set_major_formatter(tick_text)
     if axis.get_scale() == "log":
         most = int(np.clip(length_of(axis) / ROOM[axis.axis_name], 2, MOST))
         axis.set_major_locator(FixedLocator(log_ticks(*sorted(axis.get_view_interval()), most)))

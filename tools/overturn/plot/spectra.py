@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from collections.abc import Mapping
 from types import SimpleNamespace
 
@@ -62,6 +63,7 @@ computed part is plotted."""
 
 
 MOST_DOTS = 200  # on a line
+MOST_LINES = 6  # along an axis of few values
 
 
 def axes_in_picture(plane, axes, colouring):
@@ -143,6 +145,14 @@ def draw_into(ax, plane, layers, arguments):
     ax.set(xlabel=across, ylabel=up, title=arguments.title or "")
 
 
+def in_lines(planes, columns, most):
+    """Returns the planes of the panels and the number of their columns, with a panel for each value along an axis of few
+    values."""
+    lines = [line for plane in planes for line in plane.lines(most)]
+    return (planes, columns) if len(lines) > MOST_PANELS else (lines, columns if len(lines) == len(planes) else
+                                                               math.ceil(math.sqrt(len(lines))))
+
+
 def colouring_of(arguments):
     if arguments.verdict and arguments.field is not None:
         raise ToolError("give a field or the verdict, not both.", USAGE)
@@ -160,7 +170,7 @@ def draw(path, arguments, dpi, ax=None):
         expect_size(file, arguments.units)
         planes, columns, left_out = sheet_of(file, arguments, 1 if ax is not None else MOST_PANELS)
         if arguments.field is not None:
-            planes = [plane.without_single_values() for plane in planes]
+            planes, columns = in_lines(planes, columns, 1 if ax is not None else MOST_LINES)
         for layer in layers:
             layer.add(planes)
         if ax is not None:
@@ -214,7 +224,8 @@ def read_arguments(argv):
     shown.add_argument("--verdict", action="store_true",
                        help="draw what stands, what topples and what is unknown: undecided, or not computed")
     shown.add_argument("--field", metavar="NAME",
-                       help="draw the values of a field of the file, such as peak; as lines if only one axis varies")
+                       help="draw the values of a field of the file, such as peak; as lines if only one axis varies, or in "
+                            "panels of lines if one has few values")
     parser.add_argument("--boundary", metavar="BOUNDARY.h5",
                         help="overlay the flips of the verdict; written by overturn boundary")
     parser.add_argument("--practice", action="store_true",
