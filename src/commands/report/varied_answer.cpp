@@ -76,7 +76,10 @@ std::string sentence_of(const VerdictRanges& ranges, const ToppleOptions& option
         return fmt::format("neither the first nor the last {} is safe at {}", quantity->name,
                            strength_text(options));
     }
-    return fmt::format("nothing topples at {} {}", strength_text(options), where);
+    // Under a record, narrow ranges are common.
+    return fmt::format("{} at {} {}",
+                       options.record.empty() ? "nothing topples" : "nothing is found to topple",
+                       strength_text(options), where);
 }
 
 void print_varied(const std::vector<DirectedRanges>& all, const ToppleOptions& options)
