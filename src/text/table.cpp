@@ -1,6 +1,7 @@
 #include "overturn/text/table.hpp"
 
 #include "overturn/text/error.hpp"
+#include "overturn/text/mapped.hpp"
 #include "overturn/text/parse_number.hpp"
 #include "overturn/text/quoting.hpp"
 #include "overturn/text/utf8.hpp"
@@ -254,11 +255,9 @@ std::vector<TableColumn> columns_named(const std::vector<std::string_view>& name
                       size, noun_of(size, "columns"), names.size(), fmt::join(names, ", "));
     }
     values = is_row ? values : behind_names;
-    std::vector<TableColumn> columns;
-    for (const std::string_view name : names) {
-        columns.push_back({std::string(name), {}, {}});
-    }
-    return columns;
+    return mapped(names, [](std::string_view name) {
+        return TableColumn{std::string(name), {}, {}};
+    });
 }
 
 /// names: of known columns; empty: those of the first line.
