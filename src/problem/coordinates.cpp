@@ -101,8 +101,11 @@ bool stays_flat(const Point& point)
 double moving_pga(const Scene& scene, const Point& point)
 {
     const auto plus = sliding_side(point.block, point.gyration, point.friction);
-    return pga_at({plus.acceleration_to_move(), plus.turned().acceleration_to_move()}, scene,
-                  point);
+    const double moving =
+        pga_at({plus.acceleration_to_move(), plus.turned().acceleration_to_move()}, scene, point);
+    const double lifting = lifting_pga(scene, point); // differs by roundings if it lifts first
+    constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+    return moving > lifting * (1 - rounding) ? lifting : moving;
 }
 
 namespace {

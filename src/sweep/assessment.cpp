@@ -21,7 +21,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 
 /// Verdicts close to a flip need more digits. Of a block that may slip, of which there are none,
 /// only the verdict at the asked strength is confirmed.
@@ -246,9 +245,6 @@ std::vector<ObjectCase> cases_of(const Problem& problem, const AssessmentQuestio
             each.pga = std::abs(each.point.amplitude) * unit;
             each.lifting_pga = lifting_pga(scene, each.point);
             each.moving_pga = moving_pga(scene, each.point);
-            if (each.moving_pga > each.lifting_pga * (1 - rounding)) { // it does not slide first
-                each.moving_pga = each.lifting_pga;
-            }
             const double sign = std::signbit(each.point.amplitude) ? -1 : 1;
             each.strengths =
                 toppling_strengths(scene, {each.point, sign * unit},

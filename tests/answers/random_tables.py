@@ -111,7 +111,7 @@ class Search:
         else:
             scan += [asked * (1 + i / 1000) for i in range(-20, 21)]
         scan = [value for value in scan if lifting < value < end] + [lifting, end]
-        scan = np.unique(scan + [asked] * (lifting < asked < end))
+        scan = np.unique(scan + [asked] * bool(lifting < asked < end))
         toppling = self.at(scan)["toppling"]
         self.lowest, self.undecided = self.first(scan, toppling, lifting)
         if not asked or self.of_asked["toppling"] > 0 or self.lowest is None or self.lowest > asked:
