@@ -80,7 +80,7 @@ class TestReport(InAFolder):
         self.assertEqual(answers["least_widths"]["object"], "slim & tall")
         for widths, words in (([0.31, 0.40001], "With more width and all else equal, it stands from 0.4001 m in all cases, "
                                                 "from 0.3100 m in 1 of 2, as searched up to 0.6 m in steps of 0.001 m"),
-                              ([0.31, None], "Wider ones topple, too, as searched up to 0.6 m"),
+                              ([0.31, None], "No wider one is known to stand in all cases, as searched up to 0.6 m"),
                               ([0.31], "With more width and all else equal, it stands from 0.3100 m, as searched up to")):
             answers["least_widths"].update(safe_from=widths, end_of_search=0.6, step_of_search=0.001)
             self.assertIn("slim & tall is 0.2 m wide. " + words, " ".join("".join(self.page(answers).text).split()))

@@ -83,7 +83,7 @@ in at least one of up to {{ most_cases }} cases (motions, periods and directions
 {% if toppling|length > 20 %}<p>The others follow in the table.</p>{% endif %}
 {% if widths %}<p>{{ widths.object }} is {{ '%.4g'|format(widths.width) }} m wide. {% if widths.all %}With more width and all else
 equal, it stands from {{ widths.all|width }} m{% if widths.cases > 1 %} in all cases{% endif %}{% if widths.most %}, from {{
-widths.most|width }} m in {{ widths.most_cases }} of {{ widths.cases }}{% endif %}{% else %}Wider ones topple, too{% endif %}, as searched up
+widths.most|width }} m in {{ widths.most_cases }} of {{ widths.cases }}{% endif %}{% else %}No wider one is known to stand in all cases{% endif %}, as searched up
 to {{ '%.4g'|format(widths.end) }} m in steps of {{ '%.1g'|format(widths.step) }} m: single widths between them may topple. Allow a
 margin.</p>{% endif %}
 {% else %}<p>None of {{ objects|length }} objects is found to topple.{% if undecided %} Some are undecided, see below.{% endif %}</p>

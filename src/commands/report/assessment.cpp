@@ -251,7 +251,7 @@ std::string widths_text(const std::string& name, const Scene& scene, const Least
         "{} is {:.4g} m wide. {}, as searched up to {:.4g} m in steps of {:.1g} m, and "
         "finer ones near the result: single widths between them may topple.",
         name, widths.width,
-        parts.empty() ? "Wider ones topple, too"
+        parts.empty() ? "No wider one is known to stand"
                       : fmt::format("With more width, it stands {}", fmt::join(parts, ", ")),
         widths.end, step);
 }
