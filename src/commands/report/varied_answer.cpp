@@ -51,15 +51,16 @@ VerdictRanges worst_of(const std::vector<DirectedRanges>& all)
 
 std::string sentence_of(const VerdictRanges& ranges, const ToppleOptions& options)
 {
-    const auto& [quantity, first, last] = *options.vary;
-    const int decimals = decimals_of(ranges, first);
+    const VariedQuantity& vary = *options.vary;
+    const Quantity* const quantity = vary.quantity;
+    const int decimals = decimals_of(ranges, vary.first);
     const auto value = [&](double number) {
-        return fmt::format("{:.{}f}{}", number, decimals, unit_of(*quantity));
+        return fmt::format("{:.{}f}{}", number, decimals, unit_of(*vary.quantity));
     };
     const auto from = ranges.safe_from();
     const auto up_to = ranges.safe_up_to();
     std::string where;
-    if (up_to == last) {
+    if (up_to == vary.last) {
         where = fmt::format("at all values of {}", quantity->name);
     } else if (from && up_to) {
         where =
