@@ -23,6 +23,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -338,8 +339,8 @@ py::dict all_coordinates()
 
 PYBIND11_MODULE(_core, module)
 {
-    py::class_<Scene>(module, "Scene");
-    py::class_<Numerics>(module, "Numerics");
+    const py::class_<Scene> scene(module, "Scene");
+    const py::class_<Numerics> numerics(module, "Numerics");
     module.def("scene_of_pulse", &scene_of_pulse);
     module.def("scene_of_table", &scene_of_table);
     module.def("scene_of_record", &scene_of_record);
@@ -359,7 +360,7 @@ PYBIND11_MODULE(_core, module)
     static py::exception<Error> record_error(module, "RecordError", PyExc_ValueError);
     py::register_exception_translator([](std::exception_ptr thrown) {
         try {
-            std::rethrow_exception(thrown);
+            std::rethrow_exception(std::move(thrown));
         } catch (const GivenError& error) {
             const py::tuple arguments =
                 py::make_tuple(error.row(), error.quantity(), std::string(error.what()));
