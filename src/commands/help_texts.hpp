@@ -174,6 +174,7 @@ and so on. All tools have --help.
   overturn-plot-accuracy   draws error and wrong verdicts against time
   overturn-plot-landing    draws the end state of each point of a spectrum in phase space
   overturn-plot-phase      draws the regions in phase space
+  overturn-floor-motion    writes the motions of a floor of a building from those of the ground
   overturn-report          makes a page from the answers of overturn assess
   overturn-rock            makes a table of blocks from a mesh and its points of contact
   overturn-to-csv          writes a result as a table

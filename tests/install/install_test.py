@@ -99,6 +99,7 @@ class AnInstallation(unittest.TestCase):
                    "plot-accuracy": (accuracy, "accuracy.png"), "plot-phase": ("regions", "phase.png"),
                    "plot-fragility": (recorded, "fragility.png"), "plot-risk": (recorded, hazard, "risk.png"),
                    "to-csv": (self.spectrum, "spectrum.csv"), "report": (answers, "answers.html"),
+                   "floor-motion": (jobs / "synthetic.AT2", "--period", "0.5", "--shape", "1", "floor"),
                    "rock": (jobs / "rock.obj", "--contacts", jobs / "rock_contacts.csv", "rock.csv")}
         for tool, (*arguments, output) in outputs.items():
             run(self.prefix / f"bin/overturn-{tool}", *arguments, "-o", self.folder / output)

@@ -15,7 +15,7 @@ CHECKOUT = pathlib.Path(__file__).resolve().parents[2]
 IS_CHECKOUT = pathlib.Path(__file__).resolve().parents[1] == CHECKOUT / "tools"  # or an installation by CMake
 SYSTEM = "/usr/bin/python3"  # distributions package the modules for it
 PACKAGES = ("numpy", "h5py", "matplotlib", "scipy", "xarray", "h5netcdf", "jinja2", "meshio")  # that the package needs
-TOOLS = {"plot_accuracy": "plot.accuracy_study", "plot_boundary": "plot.boundaries",
+TOOLS = {"floor_motion": "floor_motions", "plot_accuracy": "plot.accuracy_study", "plot_boundary": "plot.boundaries",
          "plot_fragility": "plot.fragility_curves", "plot_history": "plot.histories", "plot_landing": "plot.landings",
          "plot_phase": "plot.portraits", "plot_risk": "plot.risks", "plot_spectrum": "plot.spectra",
          "report": "report", "rock": "rock", "synthetic_record": "synthetic_record",
