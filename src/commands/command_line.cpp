@@ -543,6 +543,23 @@ std::string advice_on_commas(std::span<const char* const> words, std::string_vie
     return "";
 }
 
+/// What the first option that the command does not have probably means.
+std::string advice_on_unknown_option(const CLI::App& app, std::span<const char* const> words)
+{
+    for (const CLI::App* command : app.get_subcommands()) {
+        const std::vector<std::string> names = mapped(
+            command->get_options(), [](const CLI::Option* option) { return option->get_name(); });
+        const std::vector<std::string_view> known(names.begin(), names.end());
+        for (std::string_view word : words) {
+            const std::string_view name = word.substr(0, word.find('='));
+            if (name.starts_with("--") && std::ranges::find(known, name) == known.end()) {
+                return suggestion(name, known);
+            }
+        }
+    }
+    return "";
+}
+
 } // namespace
 
 Command read_command_line(int argc, const char* const* argv)
@@ -569,6 +586,9 @@ Command read_command_line(int argc, const char* const* argv)
         std::ostringstream answer;
         app.exit(asked, answer);
         return to_print(answer.str());
+    } catch (const CLI::ExtrasError& error) {
+        throw Error(exit_code::usage, "{}{}\nRun with --help for more information.", error.what(),
+                    advice_on_unknown_option(app, given));
     } catch (const CLI::ParseError& error) {
         throw Error(exit_code::usage, "{}{}\nRun with --help for more information.", error.what(),
                     advice_on_commas(given, error.what()));

@@ -53,6 +53,10 @@ class TheCommandLine(Scratch):
             self.assert_exit(asked, 0)
             self.assertEqual(asked.stdout, self.overturn(*words, "--help").stdout)
 
+    def test_an_unknown_option_is_reported_with_the_one_that_is_probably_meant(self):
+        self.assert_refused(2, ["--widht", "Did you mean \"--width\"?"], "topple", "--widht", "0.4", "--height", "1")
+        self.assert_refused(2, ["--pga_max=2", "Did you mean \"--pga-max\"?"], "assess", "t.csv", "--pga_max=2")
+
     def test_a_decimal_comma_is_reported_with_the_number_to_write(self):
         advice = "Numbers have a decimal point: write 0.42 instead of 0,42."
         for subcommand, at_least in (("topple", 19), ("assess", 3)):
