@@ -36,16 +36,21 @@ void expect_consistent(const AssessOptions& options)
     expect_keys_of_scene(options.overrides);
 }
 
-/// Refuses two objects of one name, which no reader of the answer could tell apart.
+/// Refuses two rows of one name, which no reader of the answer could tell apart. Rows of different
+/// objects may have the same name.
 void expect_different_names(const Table& table, const std::string& file)
 {
     const TableColumn* const names = table.find("name");
     if (names == nullptr) {
         return;
     }
-    std::map<std::string_view, std::size_t> rows;
+    const TableColumn* const objects = table.find(column_of_azimuths);
+    std::map<std::pair<std::string, std::string_view>, std::size_t> rows;
     for (std::size_t i = 0; i < names->texts.size(); ++i) {
-        if (const auto [first, is_new] = rows.emplace(names->texts[i], i); !is_new) {
+        const std::string object = objects != nullptr ? text_in(*objects, i) : "";
+        if (const auto [first, is_new] =
+                rows.try_emplace({object, std::string_view(names->texts[i])}, i);
+            !is_new) {
             throw Error(exit_code::job,
                         "{}:{}: the name {} is that of line {}, too. Give every object a name of "
                         "its own.",
@@ -87,12 +92,29 @@ std::string job_text(const AssessOptions& options)
     return text;
 }
 
-/// Of an object that topples, or may.
+/// What each row is a part of; empty if each is an object.
+std::vector<PartOfObject> parts_of_objects(const Table& table)
+{
+    std::vector<PartOfObject> parts;
+    const TableColumn* const objects = table.find(column_of_azimuths);
+    const TableColumn* const samples = table.find("sample");
+    std::map<std::string, std::int64_t> rows;
+    std::map<std::string, std::int64_t> numbers;
+    for (std::int64_t i = 0; objects != nullptr && i < table.rows(); ++i) {
+        const auto row = std::size_t(i);
+        const std::string sample = samples != nullptr ? text_in(*samples, row) : "";
+        parts.push_back({rows.emplace(text_in(*objects, row), i).first->second,
+                         numbers.emplace(sample, i).first->second});
+    }
+    return parts;
+}
+
+/// Of an object that topples, or may, and has one row.
 std::optional<LeastWidths> widths_of_worst(const Problem& problem,
                                            const std::vector<ObjectCase>& cases,
-                                           const ObjectAnswer& worst)
+                                           const ObjectAnswer& worst, bool has_azimuths)
 {
-    if (worst.verdict.value_or(Verdict::safe) == Verdict::safe) {
+    if (has_azimuths || worst.verdict.value_or(Verdict::safe) == Verdict::safe) {
         return std::nullopt;
     }
     const auto its = std::ranges::equal_range(cases, worst.object, {}, &ObjectCase::object);
@@ -112,10 +134,12 @@ int assess(const AssessOptions& options)
     if (!options.csv.empty()) {
         expect_place_for_answers(options.csv);
     }
+    const std::vector<PartOfObject> parts = parts_of_objects(job.blocks->table);
     std::optional<Progress> progress;
     const AssessmentQuestion question{.has_strength = options.pga || options.scale,
                                       .pga_max = options.pga_max,
                                       .is_fine = options.fine,
+                                      .parts = parts,
                                       .threads = threads_of_processor(),
                                       .progress = [&](std::size_t done, std::size_t all) {
                                           if (!progress) {
@@ -126,7 +150,8 @@ int assess(const AssessOptions& options)
     const std::vector<ObjectCase> cases = cases_of(job.problem, question);
     const std::vector<ObjectAnswer> answers = answers_of(cases);
     progress.reset();
-    const std::optional<LeastWidths> widths = widths_of_worst(job.problem, cases, answers.front());
+    const std::optional<LeastWidths> widths =
+        widths_of_worst(job.problem, cases, answers.front(), !parts.empty());
     if (!options.csv.empty()) {
         write_answers(options.csv, csv_of(job, answers));
     }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -58,8 +59,9 @@ Tiling contiguous_tiling(const Shape& shape, std::int64_t least)
 }
 
 /// Sets the verdicts at the asked strength.
-void judge(const Problem& problem, const std::vector<std::size_t>& points, int threads,
-           std::vector<ObjectCase>& cases)
+/// sizes: R of each case [m].
+void judge(const Problem& problem, const std::vector<std::size_t>& points,
+           const std::vector<double>& sizes, int threads, std::vector<ObjectCase>& cases)
 {
     const auto values_of = [&](Field field) {
         Problem accurate = problem;
@@ -88,7 +90,8 @@ void judge(const Problem& problem, const std::vector<std::size_t>& points, int t
         ObjectCase& each = cases[i];
         each.peak = peaks[points[i]];
         each.verdict = verdict_of_peak(each.peak);
-        each.slide_peak = slides.empty() ? 0 : slides[points[i]];
+        const double slide = slides.empty() ? 0 : slides[points[i]];
+        each.slide = slide == 0 ? 0 : slide * sizes[i];
     }
 }
 
@@ -188,6 +191,86 @@ TopplingStrengths strengths_in_steps(const Scene& scene, const BoundaryLine& lin
     return strengths;
 }
 
+std::optional<double> lesser_of(const std::optional<double>& one, const std::optional<double>& two)
+{
+    return one && two ? std::min(*one, *two) : one ? one : two;
+}
+
+double lowest_not_safe(const std::optional<double>& toppling,
+                       const std::optional<double>& undecided)
+{
+    return lesser_of(toppling, undecided).value_or(infinity);
+}
+
+/// NaN if one of them is.
+double larger_of(double one, double two)
+{
+    return one < two || std::isnan(two) ? two : one;
+}
+
+int rank_of(Verdict verdict)
+{
+    return verdict == Verdict::topples ? 0 : verdict == Verdict::undecided ? 1 : 2;
+}
+
+/// Less for weaker ones.
+std::tuple<int, double> weakness(const ObjectCase& each)
+{
+    return {rank_of(each.verdict.value_or(Verdict::safe)),
+            lowest_not_safe(each.strengths.lowest, each.strengths.undecided)};
+}
+
+/// Adds another azimuth of the same object under the same motion.
+void add_azimuth(ObjectCase& all, const ObjectCase& other)
+{
+    if (weakness(other) < weakness(all)) {
+        all.row = other.row;
+        all.place = other.place;
+        all.point = other.point;
+    }
+    TopplingStrengths& strengths = all.strengths;
+    strengths.lowest = lesser_of(strengths.lowest, other.strengths.lowest);
+    strengths.undecided = lesser_of(strengths.undecided, other.strengths.undecided);
+    strengths.end = std::min(strengths.end, other.strengths.end);
+    all.lifting_pga = std::min(all.lifting_pga, other.lifting_pga);
+    all.moving_pga = std::min(all.moving_pga, other.moving_pga);
+    all.pga = std::max(all.pga, other.pga);
+    all.factor_below = std::max(all.factor_below, other.factor_below);
+    all.factor_above = std::min(all.factor_above, other.factor_above);
+    all.slide = larger_of(all.slide, other.slide);
+    if (all.verdict) {
+        all.verdict = std::min(*all.verdict, *other.verdict, [](Verdict one, Verdict two) {
+            return rank_of(one) < rank_of(two);
+        });
+        all.peak = all.verdict == Verdict::topples     ? infinity
+                   : all.verdict == Verdict::undecided ? unknown
+                                                       : std::max(all.peak, other.peak);
+    }
+}
+
+/// The cases of objects of several rows.
+std::vector<ObjectCase> joined(const std::vector<ObjectCase>& cases,
+                               std::span<const PartOfObject> parts, std::size_t table)
+{
+    std::map<std::tuple<PartOfObject, Shape>, ObjectCase> of_objects;
+    for (const ObjectCase& each : cases) {
+        Shape motion = each.place;
+        motion[table] = 0;
+        const PartOfObject part = parts[std::size_t(each.row)];
+        const auto [place, is_new] = of_objects.try_emplace({part, motion}, each);
+        if (is_new) {
+            place->second.object = part.object;
+        } else {
+            add_azimuth(place->second, each);
+        }
+    }
+    std::vector<ObjectCase> all;
+    for (const auto& [key, each] : of_objects) {
+        all.push_back(each);
+    }
+    return all;
+}
+
 } // namespace
 
 TopplingStrengths toppling_strengths(const Scene& scene, const BoundaryLine& line,
@@ -220,22 +303,35 @@ std::vector<ObjectCase> cases_of(const Problem& problem, const AssessmentQuestio
     const std::vector<Point> points = coordinates.points();
     const Shape shape = problem.grid.shape();
     std::vector<std::size_t> chosen;
+    std::vector<double> size_of_case;
     std::vector<ObjectCase> cases;
+    std::vector<bool> has_original(points.size(), false); // of each row
+    const auto row_of = [&](std::size_t point) {
+        return std::size_t(place_of(std::int64_t(point), shape)[table]);
+    };
+    const auto is_mirror_image = [&](const Point& point) {
+        return std::signbit(point.amplitude) && !scene.has_two_components();
+    };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        has_original[row_of(i)] = has_original[row_of(i)] || !is_mirror_image(points[i]);
+    }
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Point& point = points[i];
-        const bool is_mirror_image = std::signbit(point.amplitude) && !scene.has_two_components();
-        if (!(is_mirror_image && point.block.is_symmetric())) {
-            chosen.push_back(i);
-            const Shape place = place_of(std::int64_t(i), shape);
-            const std::int64_t object = place[table];
-            cases.push_back({.object = object,
-                             .place = place,
-                             .point = point,
-                             .size = sizes.empty() ? unknown : sizes[std::size_t(object)]});
+        const std::size_t row = row_of(i);
+        const bool is_repeated =
+            is_mirror_image(point) && point.block.is_symmetric() && has_original[row];
+        if (is_repeated && question.parts.empty()) {
+            continue;
         }
+        chosen.push_back(i);
+        size_of_case.push_back(sizes.empty() ? unknown : sizes[row]);
+        cases.push_back({.object = std::int64_t(row),
+                         .row = std::int64_t(row),
+                         .place = place_of(std::int64_t(i), shape),
+                         .point = point});
     }
     if (question.has_strength) {
-        judge(problem, chosen, question.threads, cases);
+        judge(problem, chosen, size_of_case, question.threads, cases);
     }
     in_threads(
         cases.size(), question.threads,
@@ -257,12 +353,19 @@ std::vector<ObjectCase> cases_of(const Problem& problem, const AssessmentQuestio
                 each.verdict == Verdict::topples && !(lowest && *lowest <= each.pga)) {
                 lowest = each.pga; // the search missed a narrow range
             }
+            if (question.has_strength) {
+                each.factor_below = each.strengths.below.value_or(0) / each.pga;
+                each.factor_above = each.strengths.above.value_or(infinity) / each.pga;
+            }
         },
         [&](std::size_t done) {
             if (question.progress) {
                 question.progress(done, cases.size());
             }
         });
+    if (!question.parts.empty()) {
+        cases = joined(cases, question.parts, table);
+    }
     std::ranges::stable_sort(cases, {}, &ObjectCase::object);
     return cases;
 }
@@ -278,20 +381,12 @@ std::optional<double> order_statistic(const std::vector<double>& ascending, doub
     return std::isinf(value) ? std::nullopt : std::optional(value);
 }
 
-std::optional<double> lesser_of(const std::optional<double>& one, const std::optional<double>& two)
-{
-    return one && two ? std::min(*one, *two) : one ? one : two;
-}
-
-double lowest_not_safe(const std::optional<double>& toppling,
-                       const std::optional<double>& undecided)
-{
-    return lesser_of(toppling, undecided).value_or(infinity);
-}
-
 ObjectAnswer answer_of_cases(std::span<const ObjectCase> cases)
 {
-    ObjectAnswer answer{.object = cases.front().object,
+    const auto worst = std::ranges::min_element(cases, {}, weakness);
+    ObjectAnswer answer{.object = worst->object,
+                        .row = worst->row,
+                        .place = worst->place,
                         .lifting_pga = infinity,
                         .moving_pga = infinity,
                         .toppling_pga = {},
@@ -316,14 +411,11 @@ ObjectAnswer answer_of_cases(std::span<const ObjectCase> cases)
             answer.toppling += each.verdict == Verdict::topples;
             answer.undecided += each.verdict == Verdict::undecided;
             if (each.verdict != Verdict::topples) {
-                answer.factor_below =
-                    std::max(answer.factor_below, strengths.below.value_or(0) / each.pga);
-                answer.factor_above =
-                    std::min(answer.factor_above, strengths.above.value_or(infinity) / each.pga);
+                answer.factor_below = std::max(answer.factor_below, each.factor_below);
+                answer.factor_above = std::min(answer.factor_above, each.factor_above);
             }
-            answer.slides = answer.slides || !(each.slide_peak == 0);
-            const double slide = each.slide_peak == 0 ? 0 : each.slide_peak * each.size;
-            answer.slide = answer.slide < slide || std::isnan(slide) ? slide : answer.slide;
+            answer.slides = answer.slides || !(each.slide == 0);
+            answer.slide = larger_of(answer.slide, each.slide);
             answer.peak = answer.peak < each.peak ? each.peak : answer.peak;
         }
     }
@@ -357,10 +449,8 @@ std::vector<ObjectAnswer> answers_of(const std::vector<ObjectCase>& cases)
         first = next;
     }
     const auto rank = [](const ObjectAnswer& answer) {
-        const int of_verdict = answer.verdict == Verdict::topples     ? 0
-                               : answer.verdict == Verdict::undecided ? 1
-                                                                      : 2;
-        return std::tuple(of_verdict, lowest_not_safe(answer.toppling_pga, answer.undecided_pga),
+        return std::tuple(rank_of(answer.verdict.value_or(Verdict::safe)),
+                          lowest_not_safe(answer.toppling_pga, answer.undecided_pga),
                           answer.moving_pga, answer.object);
     };
     std::ranges::sort(answers, {}, rank);

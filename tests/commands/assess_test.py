@@ -132,6 +132,40 @@ class Assess(Scratch):
         self.assertEqual(self.rows(*records, "--scale", str(scale))["statue"]["note"],
                          "topples at 3.1 % more")
 
+    def test_topples_an_object_if_one_of_its_azimuths_topples(self):
+        """Against the answers for the single rows. Two samples of rock A, of which one row has equal sides."""
+        rows = [("A", 0, "north", 0.30, 0.4, 0.02), ("A", 0, "east", 0.36, 0.4, 0.0), ("A", 1, "s1: north", 0.27, 0.4, 0.03),
+                ("A", 1, "s1: east", 0.40, 0.4, 0.01), ("B", 0, "north", 0.5, 0.6, 0.0), ("B", 0, "east", 0.45, 0.6, 0.05)]
+        head = "azimuth_of,sample,name,width,height,center_offset\n"
+        motion = ("--period", "0.4,0.7", "--pga", "1.1", "--pga-max", "3")
+        alone = {}
+        for row in rows:
+            for direction in ("0", "180"):
+                for period in ("0.4", "0.7"):
+                    self.write_table(head.replace("azimuth_of,", "") + ",".join(map(str, row[1:])) + "\n")
+                    alone[row, direction, period], = self.rows("--period", period, *motion[2:], "--direction", direction).values()
+        self.write_table(head + "".join(",".join(map(str, row)) + "\n" for row in rows))
+        found = self.overturn("assess", "objects.csv", "--json", *motion)
+        self.assert_exit(found, 0)
+        answers = {row["azimuth_of"]: row for row in json.loads(found.stdout)["objects"]}
+        self.assertEqual(set(answers), {"A", "B"})
+        for name, answer in answers.items():
+            keys = [key for key in alone if key[0][0] == name]
+            lowest = {case: min(alone[key]["topples_from"] or math.inf for key in keys if (key[0][1], *key[1:]) == case)
+                      for case in {(key[0][1], *key[1:]) for key in keys}}
+            self.assertEqual(answer["cases"], len(lowest))
+            self.assertEqual(answer["topples_from"], min(lowest.values()))
+            ordered = sorted(lowest.values())
+            self.assertEqual(answer["median"] or math.inf, ordered[len(ordered) // 2 - 1])
+            topples = {case: any(alone[key]["verdict"] == "topples" for key in keys if (key[0][1], *key[1:]) == case)
+                       for case in lowest}
+            self.assertEqual(answer["share_toppling"], sum(topples.values()) / len(topples))
+            self.assertEqual(answer["lifts_from"], min(alone[key]["lifts_from"] for key in keys))
+            weakest = min(keys, key=lambda key: alone[key]["topples_from"] or math.inf)
+            self.assertEqual(answer["name"], weakest[0][2])
+            self.assertIn(f"weakest: {weakest[0][2]}", answer["note"])
+        self.assertIsNone(json.loads(found.stdout)["least_widths"])
+
     def test_fine_has_the_ranges_of_topple(self):
         self.write_table(TABLE)
         for motion in (["--period", "0.5"], ["--record", f"{JOBS}/synthetic.AT2"]):

@@ -165,10 +165,10 @@ def slide(row):
 
 
 def titles_of(rows):
-    """Returns what people call the objects: the column `name`, the first column of texts, or the number of the row in
-    this order."""
+    """Returns what people call the objects: the column `azimuth_of`, the column `name`, the first column of texts, or
+    the number of the row, in this order."""
     own = ("verdict", "note")
-    text = next((key for key in ("name", *rows[0]) if key not in own and isinstance(rows[0].get(key), str)), None)
+    text = next((key for key in ("azimuth_of", "name", *rows[0]) if key not in own and isinstance(rows[0].get(key), str)), None)
     return [str(row[text]) if text else f"object {i + 1}" for i, row in enumerate(rows)]
 
 

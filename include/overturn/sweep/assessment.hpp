@@ -43,38 +43,55 @@ TopplingStrengths toppling_strengths(const Scene& scene, const BoundaryLine& lin
 
 /// An object under one motion in one direction.
 struct ObjectCase {
-    std::int64_t object = 0; ///< the row of the table, from 0
-    Shape place;             ///< along the dimensions of the grid
+    std::int64_t object = 0; ///< its first row of the table, from 0
+    std::int64_t row = 0;    ///< the row that is computed; of several, the weakest one
+    Shape place;             ///< of this row, along the dimensions of the grid
     Point point;             ///< with the asked strength, or 0
     double pga = 0;          ///< the asked peak ground acceleration over g
-    double size = 0;         ///< R of the side plus [m]; NaN if it is not known
     double lifting_pga = 0;  ///< see lifting_pga()
     double moving_pga = 0;
     TopplingStrengths strengths{};
 
     // If a strength is asked for:
     std::optional<Verdict> verdict{};
-    double peak = 0;       ///< |theta| / alpha, see the field
-    double slide_peak = 0; ///< over R, of a block with friction
+    double peak = 0;  ///< |theta| / alpha; infinite if it topples, NaN if undecided
+    double slide = 0; ///< the largest distance [m]; NaN if it is not known
+    // The factors on the strength, the nearest ones to 1, at which it topples; 0 and infinite if
+    // none was found. Of a block that does not topple.
+    double factor_below = 0;
+    double factor_above = std::numeric_limits<double>::infinity();
+};
+
+/// What a row of the table is a part of.
+struct PartOfObject {
+    std::int64_t object; ///< its first row, from 0
+    std::int64_t sample; ///< equal in rows that are azimuths of one object
+    auto operator<=>(const PartOfObject&) const = default;
 };
 
 struct AssessmentQuestion {
     bool has_strength;    ///< whether the strength of the points is asked for
     double pga_max;       ///< the end of the search, unless the strength is larger [1]
     bool is_fine = false; ///< see StrengthSearch
+    /// Of each row; empty: each is an object. The rows of one object are its azimuths: under a
+    /// motion, it topples if it topples in one of them. Samples are different cases.
+    std::span<const PartOfObject> parts{};
     int threads = 1;
     /// Called again and again in the thread of the caller.
     std::function<void(std::size_t done, std::size_t all)> progress = nullptr;
 };
 
-/// The cases of a problem whose blocks are the rows of a table, row by row. Of a block whose sides
-/// are equal, a motion and its mirror image are one case. The verdicts are those of answer_of().
+/// The cases of a problem whose blocks are the rows of a table, object by object. Of a block whose
+/// sides are equal, a motion and its mirror image are one case, unless it is a part of an object.
+/// The verdicts are those of answer_of().
 std::vector<ObjectCase> cases_of(const Problem& problem, const AssessmentQuestion& question);
 
 /// What is known of an object under all its motions, in all their directions. Strengths are peak
 /// ground accelerations over g.
 struct ObjectAnswer {
-    std::int64_t object;                 ///< the row of the table, from 0
+    std::int64_t object;                 ///< its first row of the table, from 0
+    std::int64_t row;                    ///< the weakest one, in the worst case
+    Shape place;                         ///< of the worst case, along the dimensions of the grid
     double lifting_pga;                  ///< the lowest one; infinite if none lifts it
     double moving_pga;                   ///< from which on it lifts or slides
     std::optional<double> toppling_pga;  ///< the lowest one that topples it

@@ -23,10 +23,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr int decimals = 4;
 
-/// A name for the rows that people read: the column `name`, the first column of texts, or the
-/// number of the row.
+/// A name for the rows that people read: the column of objects, the column `name`, the first column
+/// of texts, or the number of the row.
 std::string name_of_object(const BlockTable& blocks, std::int64_t object)
 {
+    if (const TableColumn* const objects = blocks.table.find(column_of_azimuths)) {
+        return text_in(*objects, std::size_t(object));
+    }
     const TableColumn* column = blocks.table.find("name");
     for (const TableColumn& each : blocks.table.columns) {
         column = column == nullptr && !each.texts.empty() ? &each : column;
@@ -45,12 +48,29 @@ Json known(const std::optional<double>& value)
     return value ? Json(*value) : Json();
 }
 
+/// The motion of the worst case: a record, or the period of a pulse.
+std::string worst_motion(const Job& job, const ObjectAnswer& answer)
+{
+    const Grid& grid = job.problem.grid;
+    const auto index = [&](std::string_view name) {
+        const std::optional<std::size_t> dimension = grid.dimension_of(name);
+        return std::size_t(dimension ? answer.place[*dimension] : 0);
+    };
+    if (!job.motions.empty()) {
+        return job.motions[index("motion")].name;
+    }
+    const Column* const periods = grid.find("pulse_period");
+    return periods != nullptr
+               ? fmt::format("{:g} s", periods->values[std::int64_t(index("pulse_period"))])
+               : "";
+}
+
 /// The row of an object: the columns of the table, then those of the answer.
 Json row_of(const Job& job, const ObjectAnswer& answer)
 {
     Json row;
     for (const TableColumn& column : job.blocks->table.columns) {
-        const auto i = std::size_t(answer.object);
+        const auto i = std::size_t(answer.row);
         row[column.name] = column.texts.empty() ? known(column.numbers[i]) : Json(column.texts[i]);
     }
     const bool has_strength = answer.verdict.has_value();
@@ -61,6 +81,7 @@ Json row_of(const Job& job, const ObjectAnswer& answer)
     }
     row["topples_from"] = known(answer.toppling_pga);
     row["undecided_from"] = known(answer.undecided_pga);
+    row["worst_motion"] = worst_motion(job, answer);
     row["end_of_search"] = answer.end_of_search;
     row["median"] = known(answer.median);
     row["percentile_16"] = known(answer.percentile_16);
@@ -80,7 +101,7 @@ Json row_of(const Job& job, const ObjectAnswer& answer)
     if (job.problem.grid.may_slip()) {
         row["slide"] = has_strength ? known(answer.slide) : Json();
     }
-    row["note"] = note_on(answer);
+    row["note"] = note_on(job, answer);
     return row;
 }
 
@@ -119,6 +140,11 @@ std::string percent(double share)
 
 } // namespace
 
+std::string text_in(const TableColumn& column, std::size_t row)
+{
+    return column.texts.empty() ? fmt::format("{}", column.numbers[row]) : column.texts[row];
+}
+
 std::string outcome_word(const ObjectAnswer& answer)
 {
     if (!answer.verdict) {
@@ -132,9 +158,14 @@ std::string outcome_word(const ObjectAnswer& answer)
                                                   : "stands";
 }
 
-std::string note_on(const ObjectAnswer& answer)
+std::string note_on(const Job& job, const ObjectAnswer& answer)
 {
     std::vector<std::string> notes;
+    const Table& table = job.blocks->table;
+    if (const TableColumn* const names = table.find("name");
+        names != nullptr && table.find(column_of_azimuths) != nullptr) {
+        notes.push_back("weakest: " + printable(text_in(*names, std::size_t(answer.row))));
+    }
     if (answer.undecided > 0) {
         notes.push_back(fmt::format("undecided under {} of {}", answer.undecided, answer.cases));
     }
@@ -225,8 +256,8 @@ std::vector<PrintedColumn> printed_columns(const Job& job, const std::vector<Obj
                                             : fmt::format("{:.3g} mm", 1000 * answer.slide);
         });
     }
-    add("{}", "  note", [](const ObjectAnswer& answer) {
-        const std::string note = note_on(answer);
+    add("{}", "  note", [&job](const ObjectAnswer& answer) {
+        const std::string note = note_on(job, answer);
         return note.empty() ? "" : "  " + note;
     });
     return columns;

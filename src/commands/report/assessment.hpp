@@ -8,9 +8,16 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace overturn {
+
+/// The column with the object of which a row is an azimuth.
+inline constexpr std::string_view column_of_azimuths = "azimuth_of";
+
+/// The value of a row, as a text.
+std::string text_in(const TableColumn& column, std::size_t row);
 
 /// What becomes of an object, in a word: "topples", "undecided", "rocks", "slides", "rocks and
 /// slides" or "stands"; empty if no strength is asked for.
@@ -18,7 +25,7 @@ std::string outcome_word(const ObjectAnswer& answer);
 
 /// What the numbers of a row do not say: how near the strength is to one that topples, and what
 /// is not known.
-std::string note_on(const ObjectAnswer& answer);
+std::string note_on(const Job& job, const ObjectAnswer& answer);
 
 /// The motions and the table of the objects, for people. widths: of the first one, if it topples.
 void print_assessment(const Job& job, const std::vector<ObjectAnswer>& answers,
