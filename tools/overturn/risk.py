@@ -13,13 +13,12 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
+from overturn import rate_integral
 from overturn.arguments import number, numbers
 from overturn.fragility_curve import Fragility
 from overturn.hazard import Hazard, read_hazard
-from overturn.lognormal_fit import LEVEL
-from overturn.motion_words import FLOOR_MEASURES
-from overturn.probability import (NODES, WEIGHTS, Probability, binned, binned_marginal, lognormal, marginal,
-                                  probability_of, shares_of)
+from overturn.probability import (Probability, binned, binned_marginal, lognormal, marginal, probability_of,
+                                  shares_of)
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -27,18 +26,8 @@ if TYPE_CHECKING:
 __all__ = ["Factor", "Hazard", "Probability", "Risk", "annual_rate", "binned", "binned_marginal", "largest_factor",
            "lognormal", "marginal", "probability_of", "read_hazard", "shares_of"]
 
-# The error of the integral over a panel of width h in ln x is below 6e-31 h^21 times the 20th derivative of the
-# integrand k lambda P (Gauss-Legendre, 10 nodes). With h <= beta / 2, that of Phi((ln x - m) / beta) exp(-k ln x) is
-# below (2.7 / beta + k)^20; with k h <= 4, the error is below 6e-31 (1.4 + 4)^20 = 3e-16 of what lambda falls by, times
-# k h / (1 - exp(-k h)) <= 4.1. In total it is below 2e-15 of the rate at the first level. Binned shares are constant in
-# a panel.
-WIDEST = 0.25  # h, also without breaks of P [1]
-STEEPEST = 4.0  # k h [1]
-FURTHEST = 60  # powers of e by which the range below the first level is searched for its contribution
-NEGLIGIBLE = 1e-17  # part of the contribution below the first level
 SMALL = 1e-3  # part of the rate from outside the data of the fragility that is not mentioned
 LARGEST_FACTOR = 1e6
-UNBOUNDED = 1e300  # [1/year]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -102,86 +91,22 @@ def annual_rate(hazard: Hazard, fragility: Fragility | Probability, *, edges: Ar
 
     Raises ValueError if the measures or their units differ.
     """
-    p = _in_the_measure_of(hazard, fragility)
+    p = rate_integral.in_the_measure_of(hazard, fragility)
     first, last = hazard.level[[0, -1]]
     inner = hazard.level[1:-1] if edges is None else np.unique(numbers("edges", edges))
     inner = inner[(first < inner) & (inner < last)]
-    points, within = _within(hazard, p, inner)
-    below, above = _below(hazard, p)[..., None], _above(hazard, p)[..., None]
+    points, within = rate_integral.within(hazard, p, inner)
+    below, above = (part(hazard, p)[..., None] for part in (rate_integral.below, rate_integral.above))
     of_ranges = np.add.reduceat(within, np.searchsorted(points, [first, *inner]), axis=-1)
     contribution = np.concatenate([below, of_ranges, above], axis=-1)
-    rate, halved = contribution.sum(axis=-1), _within(hazard, p, inner, 2)[1]
-    interval = _interval(rate)
+    rate, halved = contribution.sum(axis=-1), rate_integral.within(hazard, p, inner, 2)[1]
+    interval = rate_integral.interval(rate)
     notes = _notes(hazard, p, contribution[0], points, within[0], interval)
     if isinstance(fragility, Fragility) and np.isfinite(fragility.median):
         notes.append(f"without the fit, from the shares in the {len(fragility.points)} bins of the fragility: "
                      f"{_text(annual_rate(hazard, shares_of(fragility)).rate)} a year")
     return Risk(p.im, p.units, rate[0], interval, np.array([0, first, *inner, last, np.inf]), contribution[0],
                 float(abs((halved - within)[0].sum(axis=-1)).max()), tuple(notes))
-
-
-def _in_the_measure_of(hazard, fragility):
-    if not isinstance(hazard, Hazard):
-        raise TypeError(f"hazard is {type(hazard).__name__}. Give a Hazard, such as read_hazard() returns.")
-    p = probability_of(fragility)
-    if (hazard.im, hazard.units) != (p.im, p.units):
-        if p.im in FLOOR_MEASURES:
-            raise ValueError(f"the hazard is of {hazard.im} [{hazard.units}], the fragility of {p.im} [{p.units}], a "
-                             "measure of a floor. A hazard curve is usually one of the ground: compute the fragility "
-                             f"against ground_{hazard.im}, the measure of the ground that caused each motion of the "
-                             "floor (docs/floors.md), or give a hazard curve of the floor.")
-        raise ValueError(f"the hazard is of {hazard.im} [{hazard.units}], the fragility of {p.im} [{p.units}]. Compute "
-                         "the fragility against the measure of the hazard, or convert the levels of the hazard.")
-    return p
-
-
-def _within(hazard, p, inner, divisions=1):
-    """Returns the values of x between which P and the slope of the hazard are smooth, and the contributions of these
-    ranges to the integral between the first and the last level, (rows, 2, ranges)."""
-    first, last = hazard.level[[0, -1]]
-    points = np.union1d(hazard.level, [*inner, *p.breaks[(first < p.breaks) & (p.breaks < last)]])
-    slope, width = hazard.slope[np.searchsorted(hazard.level, points[1:]) - 1], np.diff(np.log(points))
-    counts = divisions * np.ceil(np.maximum(width / WIDEST, slope * width / STEEPEST)).astype(int).clip(1)
-    starts = np.concatenate([[0], np.cumsum(counts)])  # of the panels of each range
-    ends = np.interp(np.arange(starts[-1] + 1), starts, np.log(points))
-    x = np.exp(ends[:-1, None] + np.diff(ends)[:, None] * (1 + NODES) / 2)
-    weights = np.repeat(slope, counts)[:, None] * hazard.at(x) * np.diff(ends)[:, None] * WEIGHTS / 2
-    bounds = p.at(x.ravel())
-    panels = (bounds.reshape(*bounds.shape[:2], *x.shape) * weights).sum(axis=-1)
-    return points, np.add.reduceat(panels, starts[:-1], axis=-1)
-
-
-def _below(hazard, p):
-    """Returns bounds of the contribution of shaking below the first level, (rows, 2). There is no upper bound if it
-    exceeded the rate of this level: a continued hazard that overturns more often by weaker shaking bounds nothing."""
-    slope, first, total = hazard.slope[0], np.log(hazard.level[0]), 0.0
-    parts = int(np.ceil(max(1 / WIDEST, slope / STEEPEST)))
-    depth = (np.arange(parts)[:, None] + (1 + NODES) / 2).ravel() / parts
-    for power in range(FURTHEST):
-        with np.errstate(over="ignore", invalid="ignore"):
-            weights = slope * hazard.rate[0] * np.exp(slope * (power + depth)) * np.tile(WEIGHTS, parts) / (2 * parts)
-            p_high = p.at(np.exp(first - power - depth))[:, 1]
-            added = np.where(p_high > 0, p_high * weights, 0).sum(axis=-1)
-        total = total + added
-        if (added <= NEGLIGIBLE * total).all():
-            break
-    is_bounded = (added <= NEGLIGIBLE * total) & (total <= hazard.rate[0])
-    return np.stack([np.zeros_like(total), np.where(is_bounded, total, np.inf)], axis=-1)
-
-
-def _above(hazard, p):
-    """Returns bounds of the contribution of shaking above the last level, (rows, 2)."""
-    low = p.at(hazard.level[-1:])[:, 0, 0] * hazard.rate[-1]
-    return np.stack([low, np.full_like(low, hazard.rate[-1])], axis=-1)
-
-
-def _interval(rates):
-    """Returns the interval of 95 % confidence of the samples, from the lower bounds to the upper ones."""
-    if len(rates) == 1:
-        return np.full(2, np.nan)
-    low, high = rates[1:, 0], np.minimum(rates[1:, 1], np.finfo(float).max)  # quantiles of infinite rates are NaN
-    ends = np.array([np.quantile(low, (1 - LEVEL) / 2), np.quantile(high, (1 + LEVEL) / 2)])
-    return np.where(ends < UNBOUNDED, ends, np.inf)
 
 
 def _notes(hazard, p, contribution, points, within, interval):
@@ -219,7 +144,7 @@ def largest_factor(hazard: Hazard, fragility: Fragility | Probability, years: fl
     if not 0 < (survival := number("survival", survival)) < 1:
         raise ValueError(f"survival = {survival} is not between 0 and 1. Give a probability such as 0.05.")
     target = -np.log(survival) / _positive("years", number("years", years))
-    p = _in_the_measure_of(hazard, fragility)
+    p = rate_integral.in_the_measure_of(hazard, fragility)
     if on == "rate":
         risk = annual_rate(hazard, p)
         with np.errstate(divide="ignore", over="ignore"):
@@ -229,8 +154,8 @@ def largest_factor(hazard: Hazard, fragility: Fragility | Probability, years: fl
 
     def rates(log_factor):
         scaled = hazard.scaled(level=np.exp(log_factor))
-        each = _within(scaled, p, [])[1].sum(axis=-1) + _below(scaled, p) + _above(scaled, p)
-        return *each[0], *_interval(each)
+        each = rate_integral.rates(scaled, p)
+        return *each[0], *rate_integral.interval(each)
     roots = np.array([_root(lambda log_factor: rates(log_factor)[which], target) for which in (1, 0, 3, 2)])
     return Factor(roots[:2], roots[2:])
 
