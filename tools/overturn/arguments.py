@@ -54,6 +54,14 @@ def numbers(name, value):
         raise ValueError(f"{name} is not a number or an array of numbers.") from None
 
 
+def positive(name, value):
+    """Returns positive finite numbers as an array of doubles. Raises ValueError if one is not."""
+    found = numbers(name, value)
+    if not ((0 < found) & (found < np.inf)).all():
+        raise ValueError(f"{name} = {value} is not a positive number.")
+    return found
+
+
 def expect_word(name, value):
     """Raises ValueError if the value is not text."""
     if not isinstance(value, str):

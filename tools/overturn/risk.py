@@ -1,6 +1,6 @@
 """The annual rate at which a block overturns at a site, and the probability that it survives:
 
-    rate = integral of P(x) |d lambda(x)|,   survival over T years = exp(-rate T)
+    rate = integral of P(x) |d lambda(x)|,   survival over T years = exp(-rate T), or its mean over an uncertain T
 
 with the fragility P and the hazard curve lambda (C. Cornell, Bulletin of the Seismological Society of America 58 (1968)
 1583-1606). A power law lambda = k0 x^-k and a lognormal P have the rate lambda(median) exp(k^2 beta^2 / 2)."""
@@ -14,7 +14,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from overturn import rate_integral
-from overturn.arguments import number, numbers
+from overturn.age import Age, age_of, read_age
+from overturn.arguments import number, numbers, positive
 from overturn.fragility_curve import Fragility
 from overturn.hazard import Hazard, read_hazard
 from overturn.probability import (Probability, binned, binned_marginal, lognormal, marginal, probability_of,
@@ -23,8 +24,8 @@ from overturn.probability import (Probability, binned, binned_marginal, lognorma
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Factor", "Hazard", "Probability", "Risk", "annual_rate", "binned", "binned_marginal", "largest_factor",
-           "lognormal", "marginal", "probability_of", "read_hazard", "shares_of"]
+__all__ = ["Age", "Factor", "Hazard", "Probability", "Risk", "annual_rate", "binned", "binned_marginal",
+           "largest_factor", "lognormal", "marginal", "probability_of", "read_age", "read_hazard", "shares_of"]
 
 SMALL = 1e-3  # part of the rate from outside the data of the fragility that is not mentioned
 LARGEST_FACTOR = 1e6
@@ -51,21 +52,21 @@ class Risk:
         with np.errstate(invalid="ignore"):
             return self.contribution / self.rate[:, None]
 
-    def survival(self, years: ArrayLike) -> NDArray[np.float64]:
-        """Bounds of the probability of no overturning in so many years, (2, *shape of years) [1]."""
-        return np.exp(-np.multiply.outer(self.rate[::-1], _positive("years", years)))
+    def survival(self, years: ArrayLike | Age) -> NDArray[np.float64]:
+        """Bounds of the probability of no overturning in so many years, (2, *shape of years) [1]; of an Age, (2,)."""
+        return _survival(self.rate[::-1], years)
 
-    def survival_interval(self, years: ArrayLike) -> NDArray[np.float64]:
-        """Interval of 95 % confidence of survival(), (2, *shape of years) [1]."""
-        return np.exp(-np.multiply.outer(self.interval[::-1], _positive("years", years)))
+    def survival_interval(self, years: ArrayLike | Age) -> NDArray[np.float64]:
+        """Interval of 95 % confidence of survival(), (2, *shape of years) [1]. That of the age is not in it, but in the
+        probability itself."""
+        return _survival(self.interval[::-1], years)
 
-    def summary(self, years: float | None = None) -> str:
+    def summary(self, years: float | Age | None = None) -> str:
         """Returns the numbers as a text of several lines."""
         lines = [f"rate {_text(self.rate)} a year{_confidence(self.interval)}"]
         if years is not None:
-            years = number("years", years)
-            lines.append(f"survival of {years:g} years {_text(self.survival(years))}"
-                         f"{_confidence(self.survival_interval(years))}")
+            age = age_of(years)
+            lines.append(f"survival of {age.text} {_text(self.survival(age))}{_confidence(self.survival_interval(age))}")
         return "\n".join([*lines, *self.notes])
 
 
@@ -133,17 +134,18 @@ def _notes(hazard, p, contribution, points, within, interval):
     return notes
 
 
-def largest_factor(hazard: Hazard, fragility: Fragility | Probability, years: float, survival: float,
+def largest_factor(hazard: Hazard, fragility: Fragility | Probability, years: float | Age, survival: float,
                    on: Literal["rate", "level"] = "rate") -> Factor:
     """Returns the largest factor on a hazard curve with which a block survives so many years with the given
     probability: with a larger one, survival is less probable.
 
+    years: a number, or a distribution, over which survival is averaged.
     on: "rate" multiplies the rates of the hazard: factor = -ln(survival) / (rate years). "level" multiplies its levels,
         the strength of every shaking: a root. It is 0 below 1e-6, infinite above 1e6.
     """
     if not 0 < (survival := number("survival", survival)) < 1:
         raise ValueError(f"survival = {survival} is not between 0 and 1. Give a probability such as 0.05.")
-    target = -np.log(survival) / _positive("years", number("years", years))
+    target = age_of(years).rate(survival)
     p = rate_integral.in_the_measure_of(hazard, fragility)
     if on == "rate":
         risk = annual_rate(hazard, p)
@@ -171,11 +173,10 @@ def _root(rate, target):
     return 0.0 if at_ends[0] > 0 else np.inf if at_ends[1] < 0 else np.exp(brentq(excess, *ends, xtol=1e-12))
 
 
-def _positive(name, value):
-    found = numbers(name, value)
-    if not ((0 < found) & (found < np.inf)).all():
-        raise ValueError(f"{name} = {value} is not a positive number.")
-    return found
+def _survival(rate, years):
+    if isinstance(years, Age):
+        return np.exp(years.log_survival(rate))
+    return np.exp(-np.multiply.outer(rate, positive("years", years)))
 
 
 def _text(pair):
