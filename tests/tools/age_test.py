@@ -147,7 +147,7 @@ class ReadAges(unittest.TestCase):
     def test_are_refused_with_the_place(self):
         for text, words in (("900\nold\n", r"ages.txt:2: \"old\" is not an age in years"),
                             ("900 1\n1000\n", r"ages.txt:2: \"1000\" is not"), ("1 2 3\n", "ages.txt:1: "),
-                            ("# nothing\n", "ages.txt has no ages"), ("-50\n", "ages.txt: years = .* is not a positive")):
+                            ("# nothing\n", "ages.txt has no ages"), ("-50\n", "ages.txt: years = .* is not a posi")):
             with self.subTest(text=text), self.assertRaisesRegex(ValueError, words):
                 self.read(text)
 

@@ -1,5 +1,5 @@
-"""The time T for which a block has stood, as a distribution. A block that shaking overturns at an annual rate has survived
-with the probability
+"""The time T for which a block has stood, as a distribution. A block that shaking overturns at an annual rate has
+survived with the probability
 
     S(rate) = mean of exp(-rate T)
 
@@ -109,7 +109,7 @@ class Age:
 
     @staticmethod
     def interval(low: float, high: float) -> Age:
-        """Lognormal distribution with 95 % of the ages from low to high [years], and half of the others on each side."""
+        """Lognormal distribution with 95 % of the ages from low to high [years] and half of the others on each side."""
         low, high = _one("low", low), _one("high", high)
         if not low < high:
             raise ValueError(f"low = {low:g} is not below high = {high:g}. Give the lower end of the interval first.")
@@ -153,8 +153,8 @@ def read_age(path: str | os.PathLike[str]) -> Age:
         except ValueError:
             row = []
         if len(row) not in (1, 2) or rows and len(row) != len(rows[0]):
-            raise ValueError(f"{path}:{place}: \"{line.strip()[:40]}\" is not an age in years, or an age and a weight as "
-                             "in every line.")
+            raise ValueError(f"{path}:{place}: \"{line.strip()[:40]}\" is not an age in years, or an age and a weight "
+                             "as in every line.")
         rows.append(row)
     if not rows:
         raise ValueError(f"{path} has no ages. Write one in each line.")

@@ -18,14 +18,17 @@ from overturn.age import Age, age_of, read_age
 from overturn.arguments import number, numbers, positive
 from overturn.fragility_curve import Fragility
 from overturn.hazard import Hazard, read_hazard
+from overturn.logic_tree import UpdatedWeights, read_branches, updated_weights
 from overturn.probability import (Probability, binned, binned_marginal, lognormal, marginal, probability_of,
                                   shares_of)
+from overturn.ranges import confidence, text_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Age", "Factor", "Hazard", "Probability", "Risk", "annual_rate", "binned", "binned_marginal",
-           "largest_factor", "lognormal", "marginal", "probability_of", "read_age", "read_hazard", "shares_of"]
+__all__ = ["Age", "Factor", "Hazard", "Probability", "Risk", "UpdatedWeights", "annual_rate", "binned",
+           "binned_marginal", "largest_factor", "lognormal", "marginal", "probability_of", "read_age", "read_branches",
+           "read_hazard", "shares_of", "updated_weights"]
 
 SMALL = 1e-3  # part of the rate from outside the data of the fragility that is not mentioned
 LARGEST_FACTOR = 1e6
@@ -63,10 +66,11 @@ class Risk:
 
     def summary(self, years: float | Age | None = None) -> str:
         """Returns the numbers as a text of several lines."""
-        lines = [f"rate {_text(self.rate)} a year{_confidence(self.interval)}"]
+        lines = [f"rate {text_of(self.rate)} a year{confidence(self.interval)}"]
         if years is not None:
             age = age_of(years)
-            lines.append(f"survival of {age.text} {_text(self.survival(age))}{_confidence(self.survival_interval(age))}")
+            lines.append(f"survival of {age.text} {text_of(self.survival(age))}"
+                         f"{confidence(self.survival_interval(age))}")
         return "\n".join([*lines, *self.notes])
 
 
@@ -75,7 +79,7 @@ class Factor(NamedTuple):
     interval: NDArray[np.float64]  #: (2,), of 95 % confidence [1]; NaN without a bootstrap
 
     def text(self) -> str:
-        return _text(self.bounds) + _confidence(self.interval)
+        return text_of(self.bounds) + confidence(self.interval)
 
 
 def annual_rate(hazard: Hazard, fragility: Fragility | Probability, *, edges: ArrayLike | None = None) -> Risk:
@@ -105,7 +109,7 @@ def annual_rate(hazard: Hazard, fragility: Fragility | Probability, *, edges: Ar
     notes = _notes(hazard, p, contribution[0], points, within[0], interval)
     if isinstance(fragility, Fragility) and np.isfinite(fragility.median):
         notes.append(f"without the fit, from the shares in the {len(fragility.points)} bins of the fragility: "
-                     f"{_text(annual_rate(hazard, shares_of(fragility)).rate)} a year")
+                     f"{text_of(annual_rate(hazard, shares_of(fragility)).rate)} a year")
     return Risk(p.im, p.units, rate[0], interval, np.array([0, first, *inner, last, np.inf]), contribution[0],
                 float(abs((halved - within)[0].sum(axis=-1)).max()), tuple(notes))
 
@@ -117,7 +121,7 @@ def _notes(hazard, p, contribution, points, within, interval):
     is_bounded = bool(np.isfinite(contribution[1, 0]))
     most = f"at most {contribution[1, 0]:.3g} a year" if is_bounded else "unbounded"
     notes = [f"contribution of shaking below the first level of the hazard, {first}: {most}",
-             f"contribution of shaking above the last level, {last}: {_text(contribution[:, -1])} a year"]
+             f"contribution of shaking above the last level, {last}: {text_of(contribution[:, -1])} a year"]
     if not is_bounded or np.isinf(interval[1]):
         what = "the confidence" if is_bounded else "the rate"
         notes.append(f"{what} has no upper end: if the hazard continued below its first level as above it, weaker "
@@ -177,17 +181,3 @@ def _survival(rate, years):
     if isinstance(years, Age):
         return np.exp(years.log_survival(rate))
     return np.exp(-np.multiply.outer(rate, positive("years", years)))
-
-
-def _text(pair):
-    """Returns one number if both bounds agree in four digits."""
-    low, high = (f"{number:.4g}" for number in pair)
-    return low if low == high else _range(low, high)
-
-
-def _confidence(interval):
-    return f" (95 % confidence {_range(*(f'{end:.3g}' for end in interval))})" if np.isfinite(interval[0]) else ""
-
-
-def _range(low, high):
-    return f"{low} or more" if high == "inf" else f"{low} to {high}"

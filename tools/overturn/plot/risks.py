@@ -117,6 +117,40 @@ def probability(word):
     return value
 
 
+def add_age_arguments(parser):
+    parser.add_argument("--years", type=duration, metavar="T", default=DEFAULT_YEARS,
+                        help="for which the blocks have stood (default: %(default)g)")
+    spread = parser.add_mutually_exclusive_group()
+    spread.add_argument("--years-sigma", type=duration, metavar="S",
+                        help="standard deviation of these years, of a normal distribution without times below 0")
+    spread.add_argument("--years-interval", type=duration, nargs=2, metavar=("LOW", "HIGH"),
+                        help="in place of --years: 95 %% of the distribution of the years, which is lognormal, is between "
+                             "these")
+    spread.add_argument("--years-samples", metavar="FILE",
+                        help="in place of --years: text with a sample of the years in each line, and its weight in a second "
+                             "column if they differ, such as their density at even steps")
+
+
+def age(arguments):
+    """Returns the time for which the blocks have stood."""
+    if arguments.years_samples:
+        return readable(arguments.years_samples, overturn.risk.read_age)
+    if arguments.years_interval:
+        return overturn.risk.Age.interval(*arguments.years_interval)
+    if arguments.years_sigma:
+        return overturn.risk.Age.normal(arguments.years, arguments.years_sigma)
+    return overturn.risk.Age.samples(arguments.years)
+
+
+def readable(path, read, **how):
+    try:
+        return read(path, **how)
+    except OSError as error:
+        raise ToolError(f"cannot read \"{path}\": {error.strerror}.") from error
+    except ValueError as error:
+        raise ToolError(str(error), USAGE) from error
+
+
 def read_arguments(argv):
     parser = parser_of("plot_risk", __doc__, EXAMPLE, "overturn run under records")
     parser.add_argument("hazard", metavar="HAZARD", help="hazard curve: text of two columns, or CSV of OpenQuake")
@@ -124,8 +158,7 @@ def read_arguments(argv):
                                                         "arias_intensity or significant_duration")
     parser.add_argument("--im-units", metavar="UNIT", help="unit of a text that does not name it: g, m/s or cm/s")
     parser.add_argument("--site", type=int, metavar="N", help="row of a hazard of several sites, counted from 0")
-    parser.add_argument("--years", type=duration, metavar="T", default=DEFAULT_YEARS,
-                        help="of the survival (default: %(default)g)")
+    add_age_arguments(parser)
     parser.add_argument("--survival", type=probability, metavar="P",
                         help="also print the largest factors on the hazard with which the blocks survive these years "
                              "with the probability P")
@@ -138,13 +171,8 @@ def read_arguments(argv):
 
 def compute(arguments):
     """Returns the title, the hazard curve and the fragility curve."""
-    try:
-        hazard = overturn.risk.read_hazard(arguments.hazard, im=arguments.im, units=arguments.im_units,
-                                           site=arguments.site)
-    except OSError as error:
-        raise ToolError(f"cannot read \"{arguments.hazard}\": {error.strerror}.") from error
-    except ValueError as error:
-        raise ToolError(str(error), USAGE) from error
+    hazard = readable(arguments.hazard, overturn.risk.read_hazard, im=arguments.im, units=arguments.im_units,
+                      site=arguments.site)
     with open_dataset(arguments.file) as dataset:
         curve = compute_curve(dataset, variable_of_ground(dataset.attrs, hazard.im), arguments,
                               together=arguments.together)
