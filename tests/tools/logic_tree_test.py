@@ -189,6 +189,12 @@ class TheMean(unittest.TestCase):
         np.testing.assert_allclose(found.after[0].rate, AT_MEDIAN * (found.before.level / MEDIAN) ** -K
                                    * (least @ [1, 3]), rtol=1e-12)
 
+    def test_of_plateaus_is_one(self):
+        hazards = [bent().scaled(rate=factor) for factor in np.geomspace(0.01, 1, 19)]  # equal rates at two levels
+        found = risk.updated_weights(hazards, np.ones(19), SAMPLED, 100)
+        for mean in (found.before, *found.after, *found.after_interval):
+            self.assertEqual(mean.rate[0], mean.rate[1])
+
     def test_is_told_at_return_periods(self):
         found = risk.updated_weights(branches(), PRIOR, CURVE, 8000)
         text = found.summary()

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.optimize import brentq
-from scipy.special import erfcx, log_ndtr, logsumexp, ndtr, ndtri
+from scipy.special import erfcx, log_ndtr, ndtr, ndtri
 
 from overturn.arguments import number, numbers, positive
 
@@ -31,6 +31,7 @@ INTERVAL = 0.95  # of Age.interval() and in texts
 FURTHEST = 37  # |z| of the earliest age; exp(-z^2 / 2) is a normal number
 LATEST = 9  # z, above which are 1e-19 of the distribution
 DIGITS = 37  # ln of the relative error is below -37 + ln 2: 2e-16
+CHUNK = 1_000_000  # rates times ages computed at once: 8 MB an array
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -52,7 +53,7 @@ class Age:
         if weights.shape != years.shape or not ((weights >= 0).all() and 0 < weights.sum() < np.inf):
             raise ValueError(f"{len(years)} ages have {len(weights)} weights. Give as many weights as ages, each 0 or "
                              "more, and one or more of them positive.")
-        order = np.argsort(years)
+        order = np.argsort(years)[weights[np.argsort(years)] > 0]
         years, mass = years[order], weights[order] / weights.sum()
         median, low, high = (years[min(np.searchsorted(np.cumsum(mass), share), len(years) - 1)]
                              for share in (0.5, (1 - INTERVAL) / 2, (1 + INTERVAL) / 2))
@@ -166,12 +167,19 @@ def read_age(path: str | os.PathLike[str]) -> Age:
 
 def _mean_of_pieces(low, high, mass):
     """Returns the function log_mean of ages that are equally likely from low to high in each piece; pieces without a
-    width are ages."""
+    width are ages. They ascend and have positive masses: with the first one as a factor, the sum does not underflow."""
+    later, widths = low - low[0], high - low
+
+    def of_chunk(rate):
+        means = np.exp(-np.multiply.outer(rate, later))
+        if widths.any():
+            share = np.multiply.outer(rate, widths)
+            means *= np.divide(-np.expm1(-share), share, out=np.ones_like(share), where=share > 0)
+        return np.log(means @ mass) - rate * low[0]
+
     def log_mean(rate):
-        rate = rate[..., None]
-        share = rate * (high - low)
-        within = np.divide(-np.expm1(-share), share, out=np.ones_like(share), where=share > 0)
-        return logsumexp(-rate * low, b=mass * within, axis=-1)
+        chunks = np.array_split(rate.ravel(), 1 + rate.size * len(low) // CHUNK)
+        return np.concatenate([*map(of_chunk, chunks)]).reshape(rate.shape)
     return log_mean
 
 

@@ -126,8 +126,8 @@ def updated_weights(hazards: Sequence[Hazard], weights: ArrayLike, fragility: Fr
     at_levels = np.exp([np.interp(np.log(levels), np.log(each.level), np.log(each.rate)) for each in hazards])
     means = np.stack([_bounds_of_mean(low, high, values) for values in at_levels.T], axis=-1)  # (rows, 2, levels)
 
-    def mean_hazard(rate):
-        return Hazard(levels, rate, p.im, p.units, "mean")
+    def mean_hazard(rate):  # that of a plateau may rise by rounding
+        return Hazard(levels, np.minimum.accumulate(rate), p.im, p.units, "mean")
     has_samples = len(rates) > 1
     return UpdatedWeights(
         hazards, age, prior, posterior[0], _interval(posterior) if has_samples else np.full(posterior[0].shape, np.nan),
