@@ -8,6 +8,7 @@ with the fragility P and the hazard curve lambda (C. Cornell, Bulletin of the Se
 from __future__ import annotations
 
 import dataclasses
+import functools
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
@@ -158,6 +159,7 @@ def largest_factor(hazard: Hazard, fragility: Fragility | Probability, years: fl
     if on != "level":
         raise ValueError(f"on = {on!r} is neither \"rate\" nor \"level\".")
 
+    @functools.cache  # the four roots begin alike
     def rates(log_factor):
         scaled = hazard.scaled(level=np.exp(log_factor))
         each = rate_integral.rates(scaled, p)
@@ -167,14 +169,18 @@ def largest_factor(hazard: Hazard, fragility: Fragility | Probability, years: fl
 
 
 def _root(rate, target):
-    """Returns the factor whose logarithm has the given rate; rate rises with it."""
+    """Returns the factor whose logarithm has the given rate; rate rises with it. Most factors are near 1."""
     def excess(log_factor):
         return np.log(np.clip(rate(log_factor), 1e-300, 1e300)) - np.log(target)
-    ends = -np.log(LARGEST_FACTOR), np.log(LARGEST_FACTOR)
-    at_ends = excess(ends[0]), excess(ends[1])
-    if np.isnan(at_ends).any():
+    if np.isnan(excess(0.0)):
         return np.nan
-    return 0.0 if at_ends[0] > 0 else np.inf if at_ends[1] < 0 else np.exp(brentq(excess, *ends, xtol=1e-12))
+    sign, limit = -np.sign(excess(0.0)) or 1.0, np.log(LARGEST_FACTOR)
+    start, end = 0.0, sign
+    while sign * excess(end) < 0:
+        if abs(end) == limit:
+            return np.inf if sign > 0 else 0.0
+        start, end = end, sign * min(2 * abs(end), limit)
+    return np.exp(brentq(excess, start, end, xtol=1e-12))
 
 
 def _survival(rate, years):
