@@ -29,10 +29,14 @@ class AFunction(unittest.TestCase):
                "survival": lambda value: overturn.risk.largest_factor(AFunction.HAZARD, AFunction.CURVE, 100, value),
                "median": lambda value: overturn.risk.lognormal(value, 0.4, im="pga", units="g"),
                "beta": lambda value: overturn.risk.lognormal(0.5, value, im="pga", units="g"),
+               "mean": lambda value: overturn.risk.Age.normal(value, 1),
+               "sigma": lambda value: overturn.risk.Age.lognormal(1000, value),
                "rate": lambda value: AFunction.HAZARD.scaled(rate=value),
                "level": lambda value: AFunction.HAZARD.scaled(level=value)}
     ARRAYS = {"x": HAZARD.at, "years": RISK.survival,
               "edges": lambda value: overturn.risk.annual_rate(AFunction.HAZARD, AFunction.CURVE, edges=value),
+              "weights": lambda value: overturn.risk.updated_weights([AFunction.HAZARD], value, AFunction.CURVE, 100),
+              "probability": lambda value: overturn.risk.Age.quantiles(value, [1, 2]),
               "low": lambda value: overturn.risk.binned([1, 2, 3], value, im="pga", units="g")}
 
     def test_names_its_argument_if_it_is_of_another_kind(self):

@@ -93,6 +93,9 @@ class TestALegend(Recorded):
         self.assert_within("boundary.h5", tool="plot_boundary")
         self.assert_within("spectrum.h5", "--by", "size", "--samples", "2", tool="plot_fragility")
         self.assert_within("spectrum.h5", "hazard.csv", "--samples", "2", tool="plot_risk")
+        (self.folder / "branches.csv").write_text("weight,file,name\n" + "".join(
+            f"{weight},hazard.csv,model {weight} of a source with a name of many words\n" for weight in (0.9, 0.1)))
+        self.assert_within("spectrum.h5", "branches.csv", "--samples", "2", tool="plot_risk")
 
     def test_of_an_accuracy_study_is_within_it(self):
         self.overturn("accuracy", "study.h5", "plane.frequency.count=4", "plane.amplitude.count=6",

@@ -167,9 +167,10 @@ class TestAFloor(InOneFolder):
 
     def test_has_the_hazard_of_its_ground_if_this_is_known(self):
         with contextlib.chdir(self.folder):
-            _, hazard, curve = risks.compute(risks.read_arguments(["pga_spectrum.h5", "pga.csv", *QUICK]))
-        self.assertEqual((hazard.im, curve.im), ("pga", "pga"))
-        self.assertGreater(overturn.risk.annual_rate(hazard, curve).rate[0], 0)
+            site = risks.compute(risks.read_arguments(["pga_spectrum.h5", "pga.csv", *QUICK]))
+        hazard, = site.hazards
+        self.assertEqual((hazard.im, site.curve.im), ("pga", "pga"))
+        self.assertGreater(overturn.risk.annual_rate(hazard, site.curve).rate[0], 0)
 
     def test_has_no_measure_that_is_combined_with_a_hazard_of_the_ground(self):
         hazards = {name: overturn.risk.Hazard([0.1, 1], [0.1, 0.001], name, units) for name, units in (

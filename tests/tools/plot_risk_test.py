@@ -77,12 +77,77 @@ class TestAPicture(Picture):
         self.refuses(74, "it exists and is not a PNG picture of overturn", "result.h5", "hazard.txt", "-o", "other.png")
         self.assertEqual((self.folder / "other.png").read_text(), "notes")
 
+    def test_is_that_of_an_uncertain_age(self):
+        (self.folder / "ages.txt").write_text("# years, weight\n400 1\n600 3\n")
+        for options, text in ((("--years", "500", "--years-sigma", "80"), "500 years (normal, standard deviation 80)"),
+                              (("--years-interval", "400", "900"), "600 years (lognormal, 95 % from 400 to 900)"),
+                              (("--years-samples", "ages.txt"), "600 years (2 samples, 95 % from 400 to 600)")):
+            text = f"survival of {text}"
+            output, words = self.words("result.h5", "hazard.txt", *options, "--survival", "0.3", "--samples", "20")
+            self.assertRegex(output, rf"(?m)^{re.escape(text)} 0\.\d")
+            self.assertIn(f"largest factor on the levels of the hazard, {text} with the probability 0.3: ", output)
+            self.assertIn(text, words)
+
+    def test_has_a_table_of_the_blocks_together_and_alone(self):
+        text, _ = self.words("result.h5", "hazard.txt", "--together", "size", "--survival", "0.3", "--samples", "20")
+        rows = re.findall(r"(?m)^(size|all together|\d\S*)  +(.*)$", text)
+        self.assertEqual([name for name, _ in rows], ["size", "all together", "0.5", "1", "1.5", "2"])
+        self.assertRegex(rows[0][1], r"rate \[1/year\] +survival +factor on rates +factor on levels")
+        rates = [float(row.split()[0]) for _, row in rows[1:]]
+        self.assertIn(f"rate {rates[0]:.4g} a year", text)
+        with overturn.open(self.folder / "result.h5") as dataset:
+            first = overturn.fragility(dataset.isel(size=[0]), "pga", bins=20, samples=20)
+        hazard = risk.read_hazard(self.folder / "hazard.txt")
+        self.assertAlmostEqual(rates[1], risk.annual_rate(hazard, first).rate[0], delta=5e-4 * rates[1])  # four digits
+
     def test_is_that_of_any_fragility_in_python(self):
         from overturn import plot
         hazard = risk.read_hazard(self.folder / "hazard.txt")
         panels = plot.risk(hazard, risk.binned([0.1, 0.5, 2], [0.2, 0.9], im="pga", units="g"), 100)
         self.assertEqual([panel.get_ylabel() for panel in panels],
                          ["rate of exceedance [1/year]", "probability", "rate of overturning [1/year]"])
+
+
+class TestBranches(Picture):
+    def setUp(self):
+        for name, factor in (("low", 0.2), ("high", 2)):
+            rows = [line.split() for line in HAZARD.splitlines()[1:]]
+            (self.folder / f"{name}.txt").write_text("# pga [g]\n" + "".join(
+                f"{level} {factor * float(rate):g}\n" for level, rate in rows))
+        (self.folder / "branches.csv").write_text("weight,file\n0.25,low.txt\n0.75,high.txt\n")
+
+    def test_have_their_weights_before_and_after(self):
+        text, words = self.words("result.h5", "branches.csv", "--years", "500", "--together", "size", "--csv",
+                                 "weights.csv", "--samples", "50")
+        self.assertRegex(text, r"(?m)^branch +prior  posterior \(95 % confidence\)")
+        low, high = (float(re.search(rf"(?m)^{name} +0\.\d+ +(\S+) ", text)[1]) for name in ("low", "high"))
+        self.assertGreater(low, 0.25)
+        self.assertAlmostEqual(low + high, 1, delta=1e-4)  # four digits each
+        self.assertRegex(text, r"(?m)^branch +low +high$")  # fewer than blocks, of which each has a row
+        self.assertEqual(re.findall(r"(?m)^(all together|[\d.]+)  +0", text), ["all together", "0.5", "1", "1.5", "2"])
+        rows = (self.folder / "weights.csv").read_text().splitlines()
+        self.assertEqual([row.split(",")[:2] for row in rows[1:]], [["low", "0.25"], ["high", "0.75"]])
+        self.assertAlmostEqual(float(rows[1].split(",")[2]), low, delta=5e-4 * low)
+        for line in ("Risk: result.h5", "weights after the survival of 500 years", "weights of the branches", "before",
+                     "after", "95 % confidence", "hazard curves of the branches", "mean before", "mean after", "low",
+                     "high", "PGA [g]"):
+            self.assertIn(line, words)
+
+    def test_of_an_unfinished_file_have_both_bounds(self):
+        shutil.copy(self.folder / "result.h5", self.folder / "part.h5")
+        with h5py.File(self.folder / "part.h5", "a") as file:
+            file["run/checksum"][-1] = 0  # of the tile of the last motion
+        text, words = self.words("part.h5", "branches.csv", "--years", "500", "--samples", "20")
+        self.assertRegex(text, r"(?m)^low +0\.25 +0\.\d+ to 0\.\d+ ")
+        for line in ("after, up to: bounds", "two numbers are bounds"):
+            self.assertIn(line, words)
+
+    def test_are_refused_with_options_of_one_hazard_and_without_their_files(self):
+        self.refuses(2, "--survival: \"branches.csv\" is a list of branches. Omit it.", "result.h5", "branches.csv",
+                     "--survival", "0.1")
+        self.refuses(2, "--csv: \"low.txt\" is no list of branches. Omit it.", "result.h5", "low.txt", "--csv", "o.csv")
+        (self.folder / "low.txt").unlink()
+        self.refuses(74, 'low.txt": No such file or directory (named in branches.csv:2)', "result.h5", "branches.csv")
 
 
 class TestARiskRefused(Picture):
@@ -110,6 +175,12 @@ class TestARiskRefused(Picture):
 
     def test_without_a_time_or_a_probability(self):
         self.refuses(2, "--years: -1 is not a positive number", "result.h5", "hazard.txt", "--years", "-1")
+        self.refuses(2, "--years-sigma is the standard deviation of --years. Give both", "result.h5", "hazard.txt",
+                     "--years-sigma", "100")
+        self.refuses(2, "--years and a distribution without it", "result.h5", "hazard.txt", "--years", "100",
+                     "--years-interval", "50", "200")
+        self.refuses(2, "low = 200 is not below high = 50", "result.h5", "hazard.txt", "--years-interval", "200", "50")
+        self.refuses(74, 'cannot read "ages.txt"', "result.h5", "hazard.txt", "--years-samples", "ages.txt")
         self.refuses(2, "--survival: 2 is not between 0 and 1", "result.h5", "hazard.txt", "--survival", "2")
         self.refuses(2, "'mass' is not a property of the blocks", "result.h5", "hazard.txt", "--together", "mass")
 

@@ -50,6 +50,15 @@ def blocks_at_one_site(dataset, column):
     return len(kinds), [dataset.isel({dimension: part}) for part in parts], dimension
 
 
+def each_block(dataset, column):
+    """Returns the parts of a data set of overturn.open() with one value of a column each, by its text: each block of
+    blocks_at_one_site() alone."""
+    values, dimension = _property(dataset, column)
+    kinds = np.unique(values)
+    texts = texts_of(kinds, 4) if kinds.dtype.kind in "fiu" else [str(kind) for kind in kinds]
+    return {text: dataset.isel({dimension: np.flatnonzero(values == kind)}) for text, kind in zip(texts, kinds)}
+
+
 def counted(number, kind):
     """Returns a number of things, such as "1 block" or "3 blocks"."""
     things, _, rest = kind.partition(" ")

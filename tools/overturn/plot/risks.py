@@ -4,15 +4,20 @@ contributes to the rate."""
 import argparse
 import pathlib
 import textwrap
+from typing import NamedTuple
 
 import numpy as np
 import overturn
 from matplotlib import pyplot
+from overturn.block_groups import each_block
 from overturn.captions import escaped, plain, shortened
+from overturn.logic_tree import is_list_of_branches
 from overturn.motion_words import variable_of_ground
 from overturn.output_file import save
+from overturn.plot.logic_trees import branches
 from overturn.plot.fragility_curves import BAND, COLOURS, NAMES, POINT, UNITS, draw_bins
 from overturn.plot.headings import wrapped
+from overturn.ranges import confidence, table, text_of
 from overturn.result_curves import add_curve_arguments, compute_curve, open_dataset
 from overturn.ticks import name_ticks
 from overturn.tool import USAGE, ToolError, parse_with_picture, parser_of
@@ -28,7 +33,12 @@ HAZARD is a text of two columns, levels of an intensity measure and annual rates
 first line names the measure and its unit, or a CSV output of hazard curves of OpenQuake, such as
 hazard_curve-mean-PGA_1.csv. The fragility is computed against the measure of the hazard.
 
-rate = integral of P(x) |d lambda(x)|, of the fragility P and the hazard lambda; survival over T years = exp(-rate T).
+A list of branches of a logic tree is a CSV with the columns weight and file, of each hazard curve, or
+realizations_1.csv of OpenQuake beside its curves of the realizations. The blocks that have survived then change the
+weights: posterior = prior survival / sum of prior survival.
+
+rate = integral of P(x) |d lambda(x)|, of the fragility P and the hazard lambda; survival over T years = exp(-rate T),
+and its mean over the distribution of T if the age is uncertain.
 Two numbers, as in "2e-4 to 3e-4", are a lower and an upper bound: points without a verdict are all safe or all
 overturn, and shaking outside the levels of the hazard contributes the least or the most that it can. The 95 %
 confidence is from the bootstrap of the fragility; that of the hazard is not included.
@@ -117,45 +127,13 @@ def probability(word):
     return value
 
 
-def add_age_arguments(parser):
-    parser.add_argument("--years", type=duration, metavar="T", default=DEFAULT_YEARS,
-                        help="for which the blocks have stood (default: %(default)g)")
-    spread = parser.add_mutually_exclusive_group()
-    spread.add_argument("--years-sigma", type=duration, metavar="S",
-                        help="standard deviation of these years, of a normal distribution without times below 0")
-    spread.add_argument("--years-interval", type=duration, nargs=2, metavar=("LOW", "HIGH"),
-                        help="in place of --years: 95 %% of the distribution of the years, which is lognormal, is between "
-                             "these")
-    spread.add_argument("--years-samples", metavar="FILE",
-                        help="in place of --years: text with a sample of the years in each line, and its weight in a second "
-                             "column if they differ, such as their density at even steps")
-
-
-def age(arguments):
-    """Returns the time for which the blocks have stood."""
-    if arguments.years_samples:
-        return readable(arguments.years_samples, overturn.risk.read_age)
-    if arguments.years_interval:
-        return overturn.risk.Age.interval(*arguments.years_interval)
-    if arguments.years_sigma:
-        return overturn.risk.Age.normal(arguments.years, arguments.years_sigma)
-    return overturn.risk.Age.samples(arguments.years)
-
-
-def readable(path, read, **how):
-    try:
-        return read(path, **how)
-    except OSError as error:
-        raise ToolError(f"cannot read \"{path}\": {error.strerror}.") from error
-    except ValueError as error:
-        raise ToolError(str(error), USAGE) from error
-
-
 def read_arguments(argv):
     parser = parser_of("plot_risk", __doc__, EXAMPLE, "overturn run under records")
-    parser.add_argument("hazard", metavar="HAZARD", help="hazard curve: text of two columns, or CSV of OpenQuake")
-    parser.add_argument("--im", metavar="MEASURE", help="measure of a text that does not name it: pga, pgv, "
-                                                        "arias_intensity or significant_duration")
+    parser.add_argument("hazard", metavar="HAZARD",
+                        help="hazard curve: text of two columns, or CSV of OpenQuake; or a list of branches")
+    parser.add_argument("--im", metavar="MEASURE",
+                        help="measure of a text that does not name it, or one of those whose curves OpenQuake wrote: pga, "
+                             "pgv, arias_intensity or significant_duration")
     parser.add_argument("--im-units", metavar="UNIT", help="unit of a text that does not name it: g, m/s or cm/s")
     parser.add_argument("--site", type=int, metavar="N", help="row of a hazard of several sites, counted from 0")
     add_age_arguments(parser)
@@ -164,39 +142,133 @@ def read_arguments(argv):
                              "with the probability P")
     parser.add_argument("--together", metavar="COLUMN",
                         help="the blocks stand at one site and differ in this column of their table, or along this "
-                             "axis, such as block: the rate at which one of them overturns")
+                             "axis, such as block: the rate at which one of them overturns, and that of each alone")
     add_curve_arguments(parser, bins=20)
-    return parse_with_picture(parser, argv, "FILE_risk.png")
+    parser.add_argument("--csv", metavar="OUT.csv", help="of a list of branches: also write the weights")
+    arguments = parse_with_picture(parser, argv, "FILE_risk.png")
+    if arguments.years is not None and (arguments.years_interval or arguments.years_samples):
+        parser.error("--years and a distribution without it: omit --years, or give its --years-sigma")
+    if arguments.years_sigma and arguments.years is None:
+        parser.error("--years-sigma is the standard deviation of --years. Give both")
+    return arguments
+
+
+def add_age_arguments(parser):
+    parser.add_argument("--years", type=duration, metavar="T",
+                        help=f"for which the blocks have stood (default: {DEFAULT_YEARS})")
+    spread = parser.add_mutually_exclusive_group()
+    spread.add_argument("--years-sigma", type=duration, metavar="S",
+                        help="standard deviation of --years, which are then the mean of a normal distribution")
+    spread.add_argument("--years-interval", type=duration, nargs=2, metavar=("LOW", "HIGH"),
+                        help="in place of --years: 95 %% of a lognormal distribution of the years are in this interval")
+    spread.add_argument("--years-samples", metavar="FILE",
+                        help="in place of --years: text with a sample of the years in each line or, in two columns, "
+                             "years and their weights")
+
+
+def age_of(arguments):
+    """Returns the time for which the blocks have stood."""
+    ages = overturn.risk.Age
+    if arguments.years_samples:
+        return overturn.risk.read_age(arguments.years_samples)
+    if arguments.years_interval:
+        return ages.interval(*arguments.years_interval)
+    if arguments.years_sigma:
+        return ages.normal(arguments.years, arguments.years_sigma)
+    return ages.samples(arguments.years or DEFAULT_YEARS)
+
+
+class Site(NamedTuple):
+    """What the arguments tell: hazard curves, with weights if they are branches; the fragility of the blocks, and that
+    of each alone if they stand together."""
+
+    title: str
+    age: overturn.risk.Age
+    hazards: list
+    weights: object
+    curve: overturn.Fragility
+    alone: dict
 
 
 def compute(arguments):
-    """Returns the title, the hazard curve and the fragility curve."""
-    hazard = readable(arguments.hazard, overturn.risk.read_hazard, im=arguments.im, units=arguments.im_units,
-                      site=arguments.site)
+    """Returns the Site."""
+    how = {"im": arguments.im, "units": arguments.im_units, "site": arguments.site}
+    try:
+        age = age_of(arguments)
+        if is_list_of_branches(arguments.hazard):
+            hazards, weights = overturn.risk.read_branches(arguments.hazard, **how)
+        else:
+            hazards, weights = [overturn.risk.read_hazard(arguments.hazard, **how)], None
+    except OSError as error:
+        raise ToolError(f"cannot read \"{error.filename}\": {error.strerror}.") from error
+    except ValueError as error:
+        raise ToolError(str(error), USAGE) from error
+    for option, is_for_branches in (("survival", False), ("csv", True)):
+        if getattr(arguments, option) is not None and is_for_branches != (weights is not None):
+            raise ToolError(f"--{option}: \"{arguments.hazard}\" is {'no' if is_for_branches else 'a'} list of "
+                            "branches. Omit it.", USAGE)
     with open_dataset(arguments.file) as dataset:
-        curve = compute_curve(dataset, variable_of_ground(dataset.attrs, hazard.im), arguments,
-                              together=arguments.together)
-        return dataset.attrs.get("title") or f"Risk: {pathlib.Path(arguments.file).name}", hazard, curve
+        im = variable_of_ground(dataset.attrs, hazards[0].im)
+        curve = compute_curve(dataset, im, arguments, together=arguments.together)
+        alone = {name: compute_curve(block, im, arguments, together=arguments.together)
+                 for name, block in (each_block(dataset, arguments.together).items() if curve.together else ())}
+        title = dataset.attrs.get("title") or f"Risk: {pathlib.Path(arguments.file).name}"
+        return Site(plain(title), age, hazards, weights, curve, alone if len(alone) > 1 else {})
 
 
-def report(arguments, hazard, curve):
+def report(arguments, site):
     """Returns the numbers as lines."""
-    lines = [curve.summary(), overturn.risk.annual_rate(hazard, curve).summary(arguments.years)]
-    if arguments.survival is not None:
-        for on, what in (("rate", "rates"), ("level", "levels")):
-            factor = overturn.risk.largest_factor(hazard, curve, arguments.years, arguments.survival, on)
-            lines.append(f"largest factor on the {what} of the hazard, survival of {arguments.years:g} years with the "
-                         f"probability {arguments.survival:g}: {factor.text()}")
-    return lines
+    hazard, age = site.hazards[0], site.age
+    measures = ("rate", "level") if arguments.survival is not None else ()
+    lines, rows = [site.curve.summary()], [[site.curve.together, "rate [1/year]", "survival",
+                                            *(f"factor on {on}s" for on in measures)]]
+    for name, curve in {"all together": site.curve, **site.alone}.items():
+        found = overturn.risk.annual_rate(hazard, curve)
+        factors = [overturn.risk.largest_factor(hazard, curve, age, arguments.survival, on) for on in measures]
+        pairs = [(found.rate, found.interval), (found.survival(age), found.survival_interval(age)), *factors]
+        rows.append([name, *(text_of(bounds) + confidence(interval, "") for bounds, interval in pairs)])
+        if curve is site.curve:
+            lines += [found.summary(age), *(
+                f"largest factor on the {on}s of the hazard, survival of {age.text} with the probability "
+                f"{arguments.survival:g}: {factor.text()}" for on, factor in zip(measures, factors))]
+    return [*lines, *(table(rows) if site.alone else ()), *notes_of_each(site)]
+
+
+def notes_of_each(site):
+    return [f"{name}: {note}" for name, curve in site.alone.items() for note in curve.notes
+            if note not in site.curve.notes]
+
+
+def report_of_branches(site, updated):
+    """Returns the numbers as lines."""
+    lines = [site.curve.summary(), updated.summary()]
+    if site.alone:
+        each = {"all together": updated, **{name: updated_by(site, curve) for name, curve in site.alone.items()}}
+        rows = [["branch", *updated.names], *([name, *one.weight_texts()] for name, one in each.items())]
+        lines += ["posterior weights by each block alone:",
+                  *table(rows if len(site.alone) > len(site.hazards) else [*zip(*rows)])]
+    return lines + notes_of_each(site)
+
+
+def updated_by(site, curve):
+    return overturn.risk.updated_weights(site.hazards, site.weights, curve, site.age)
 
 
 def main(argv=None):
     arguments = read_arguments(argv)
-    title, hazard, curve = compute(arguments)
+    site = compute(arguments)
     try:
-        lines = report(arguments, hazard, curve)
-        panels = risk(hazard, curve, arguments.years, title=plain(title))
+        if site.weights is None:
+            lines = report(arguments, site)
+            panels = risk(site.hazards[0], site.curve, site.age, title=site.title)
+        else:
+            updated = updated_by(site, site.curve)
+            lines = report_of_branches(site, updated)
+            panels = branches(updated, title=site.title)
     except ValueError as error:
         raise ToolError(str(error), USAGE) from error
     print("\n".join(lines))
+    if arguments.csv:
+        updated.to_csv(arguments.csv)
+        print(arguments.csv)
     save(panels[0].figure, arguments.output, dpi=150)
