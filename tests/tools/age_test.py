@@ -88,11 +88,12 @@ class AnAge(unittest.TestCase):
         self.assertAlmostEqual(np.exp(Age.normal(100, 1000).log_survival(100.0)) / (density(0.0) / 100), 1, delta=2e-6)
 
     def test_of_a_lognormal_distribution_is_known_to_rounding(self):
-        z, step = np.linspace(-14, 9, 20001, retstep=True)  # earlier ages count for less than 1e-40, later for 1e-19
+        z, step = np.linspace(-25, 9, 30001, retstep=True)  # earlier ages count for less than 1e-130, later for 1e-19
         mass = step * np.exp(-z * z / 2) / np.sqrt(2 * np.pi)
-        for sigma in (0.1, 0.5, 1.0, 2.0):
-            exact = np.exp(-np.multiply.outer(RATES[:-2], 2000 * np.exp(sigma * z))) @ mass
-            np.testing.assert_allclose(np.exp(Age.lognormal(2000, sigma).log_survival(RATES[:-2])), exact, rtol=1e-13)
+        for sigma, rates in ((0.1, RATES[:-1]), (0.5, RATES), (1.0, RATES), (2.0, RATES)):
+            exact = np.exp(-np.multiply.outer(rates, 2000 * np.exp(sigma * z))) @ mass
+            # For improbable survival, exponents of 100 round by 1e-14.
+            np.testing.assert_allclose(np.exp(Age.lognormal(2000, sigma).log_survival(rates)), exact, rtol=1e-13)
             # Only the product of the rate and the median counts.
             np.testing.assert_allclose(Age.lognormal(2000, sigma).log_survival(RATES),
                                        Age.lognormal(20, sigma).log_survival(100 * RATES), rtol=1e-13, atol=1e-15)

@@ -179,6 +179,13 @@ class TheConfidence(unittest.TestCase):
                                    rtol=1e-8)
 
 
+    def test_includes_the_bounds_of_the_samples(self):
+        alike = risk.lognormal(MEDIAN, BETA, samples=[(MEDIAN, BETA)] * 20, edges=[0.3, 1.0], unknown=[0, 0.2], **PGA)
+        found = risk.updated_weights(branches(), PRIOR, alike, 3000)
+        self.assertTrue((found.posterior[0] < found.posterior[1]).all())
+        np.testing.assert_allclose(found.interval, found.posterior, rtol=1e-14)
+
+
 class TheMean(unittest.TestCase):
     def test_of_branches_of_other_levels_is_that_between_them(self):
         one, other = power_law(1e-2, 1e2, 5), power_law(1e-3, 10, 3).scaled(rate=3)
