@@ -3,12 +3,14 @@
 Requires OVERTURN (the binary) in the environment.
 """
 
+import subprocess
+import sys
 import unittest
 import unittest.mock
 
 import h5py
 import numpy as np
-from tool import JOBS, InOneFolder, run_overturn  # first: adds the package to the path
+from tool import JOBS, TOOLS, InOneFolder, run_overturn  # first: adds the package to the path
 import overturn
 from matplotlib import image, pyplot
 from overturn.plot import spectra
@@ -43,6 +45,10 @@ class TestPicturesFromPython(InOneFolder):
                 (axes[0] if isinstance(axes, list) else axes).figure.savefig(self.folder / "own.png", **how)
                 np.testing.assert_array_equal(image.imread(self.folder / "own.png"),
                                               image.imread(self.folder / f"{name}.png"))
+
+    def test_are_imported_without_scipy(self):  # which only those of fragility and risk need
+        script = "import sys; sys.path.insert(0, sys.argv[1]); import overturn.plot; assert 'scipy' not in sys.modules"
+        subprocess.run([sys.executable, "-c", script, TOOLS], check=True)
 
     def test_of_several_spectra_are_a_list_of_axes(self):
         axes = overturn.plot.spectrum(self.path("spectrum"))

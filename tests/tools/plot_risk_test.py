@@ -3,6 +3,7 @@
 Requires OVERTURN (the binary) in the environment.
 """
 
+import contextlib
 import re
 import shutil
 import unittest
@@ -11,6 +12,7 @@ import h5py
 from plot_fragility_test import Curve  # first: adds the package to the path
 import overturn
 from overturn import risk
+from overturn.plot import risks
 from risk_test import OPENQUAKE
 
 HAZARD = "# pga [g]\n0.02 0.3\n0.1 0.05\n0.4 2e-3\n1 1e-4\n3 1e-6\n8 1e-9\n"
@@ -82,11 +84,12 @@ class TestAPicture(Picture):
         for options, text in ((("--years", "500", "--years-sigma", "80"), "500 years (normal, standard deviation 80)"),
                               (("--years-interval", "400", "900"), "600 years (lognormal, 95 % from 400 to 900)"),
                               (("--years-samples", "ages.txt"), "600 years (2 samples, 95 % from 400 to 600)")):
-            text = f"survival of {text}"
-            output, words = self.words("result.h5", "hazard.txt", *options, "--survival", "0.3", "--samples", "20")
-            self.assertRegex(output, rf"(?m)^{re.escape(text)} 0\.\d")
-            self.assertIn(f"largest factor on the levels of the hazard, {text} with the probability 0.3: ", output)
-            self.assertIn(text, words)
+            with contextlib.chdir(self.folder):
+                self.assertEqual(risks.age_of(risks.read_arguments(["result.h5", "hazard.txt", *options])).text, text)
+        output, words = self.words("result.h5", "hazard.txt", *options, "--survival", "0.3", "--samples", "20")
+        self.assertRegex(output, rf"(?m)^survival of {re.escape(text)} 0\.\d")
+        self.assertIn(f"factor on the levels of the hazard, survival of {text} with the probability 0.3: ", output)
+        self.assertIn(f"survival of {text}", words)
 
     def test_has_a_table_of_the_blocks_together_and_alone(self):
         text, _ = self.words("result.h5", "hazard.txt", "--together", "size", "--survival", "0.3", "--samples", "20")

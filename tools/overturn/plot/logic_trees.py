@@ -3,10 +3,10 @@
 import textwrap
 
 import numpy as np
+import overturn
 from matplotlib import pyplot
 from matplotlib.colors import LinearSegmentedColormap
 from overturn.captions import escaped, shortened
-from overturn.logic_tree import UpdatedWeights
 from overturn.plot.fragility_curves import BAND, COLOURS, NAMES, POINT, UNITS
 from overturn.plot.headings import wrapped
 from overturn.ticks import name_ticks
@@ -23,7 +23,7 @@ def branches(updated, *, title=None):
     """Draws the weights of overturn.risk.updated_weights() before and after, and the hazard curves of the branches,
     with their mean before and after, and returns the two axes. Of more than 30 branches, the 30 largest weights are
     drawn."""
-    if not isinstance(updated, UpdatedWeights):
+    if not isinstance(updated, overturn.risk.UpdatedWeights):
         raise ValueError(f"{updated!r:.60} are no weights. Give what overturn.risk.updated_weights() returns.")
     count = min(len(updated.prior), MOST_BARS)
     bars = BAR * (count + 1)

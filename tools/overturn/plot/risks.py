@@ -1,6 +1,8 @@
 """Plots the annual rate at which blocks overturn at a site: the hazard curve, the fragility curve, and the shaking that
 contributes to the rate."""
 
+from __future__ import annotations  # types of modules that need SciPy, which other pictures do not
+
 import argparse
 import pathlib
 import textwrap
@@ -11,7 +13,6 @@ import overturn
 from matplotlib import pyplot
 from overturn.block_groups import each_block
 from overturn.captions import escaped, plain, shortened
-from overturn.logic_tree import is_list_of_branches
 from overturn.motion_words import variable_of_ground
 from overturn.output_file import save
 from overturn.plot.logic_trees import branches
@@ -192,6 +193,7 @@ class Site(NamedTuple):
 
 def compute(arguments):
     """Returns the Site."""
+    from overturn.logic_tree import is_list_of_branches  # needs SciPy
     how = {"im": arguments.im, "units": arguments.im_units, "site": arguments.site}
     try:
         age = age_of(arguments)
