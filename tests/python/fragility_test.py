@@ -295,10 +295,29 @@ class TheCurve(unittest.TestCase):
         region, scale = graded()
         peak = np.where(region == F, np.inf, 0.3)
         peak[:, 0, 0] = 0.7
-        curve = overturn.fragility(result(region, scale, peak=peak), limit=0.5, bins=4, samples=1)
+        curve = overturn.fragility(result(region, scale, peak=peak), of="peak", above=0.5, bins=4, samples=1)
         self.assertEqual(curve.exceeding.tolist(), [10, 25, 55, 75])
+        self.assertIn("peak above 0.5 against pgv", curve.summary())
         with self.assertRaisesRegex(ValueError, "no field peak"):
-            overturn.fragility(result(region, scale), limit=0.5)
+            overturn.fragility(result(region, scale), of="peak", above=0.5)
+
+    def test_counts_values_of_any_field_above_a_level_and_none_that_is_unknown(self):
+        random = np.random.default_rng(12)
+        region = random.choice([S, S_PLUS, U0, F, UNDECIDED, NOT_COMPUTED], (11, 4, 8))
+        slide = np.where(random.random(region.shape) < 0.2, np.nan, random.uniform(0, 1, region.shape))
+        impacts = random.integers(0, 6, region.shape).astype(np.uint16)
+        data = result(region, [0.5, 1, 2, 4], slide_peak=slide, impacts=impacts, peak=np.where(region == F, np.nan, slide))
+        decided, overturns = region < UNDECIDED, (region == U0) | (region == F)
+        for field, above, known, exceeding in (
+                ("slide_peak", 0.3, ~np.isnan(slide), slide > 0.3), ("slide_peak", 0, ~np.isnan(slide), slide > 0),
+                ("impacts", 3, True, impacts > 3), ("slide_peak", -1, ~np.isnan(slide), ~np.isnan(slide)),
+                ("peak", 0.6, overturns | ~np.isnan(slide), overturns | (slide > 0.6))):
+            curve = overturn.fragility(data, of=field, above=above, samples=1)
+            self.assertEqual(curve.points.sum(), (decided & known).sum())
+            self.assertEqual(curve.exceeding.sum(), (decided & exceeding).sum())
+            self.assertEqual(curve.not_computed, (region == NOT_COMPUTED).sum())
+            self.assertEqual(curve.undecided, ((region != NOT_COMPUTED) & ~(decided & known)).sum())
+            self.assertIn(f"{field} above {above:g} against pgv", curve.summary())
 
     def test_has_the_mean_of_the_values_in_each_bin(self):
         region, scale = graded()  # at 0.5, 1, 2 and 4 m/s
@@ -316,8 +335,8 @@ class TheCurve(unittest.TestCase):
         region[0, :, 7] = UNDECIDED  # safe otherwise
         region[9, 2:] = NOT_COMPUTED
         peak = np.where(region >= UNDECIDED, np.nan, np.where(region == F, np.inf, 0.3))
-        for limit in (None, 0.5):
-            curve = overturn.fragility(result(region, scale, peak=peak), bins=4, samples=20, limit=limit)
+        for what in ({}, {"of": "peak", "above": 0.5}):
+            curve = overturn.fragility(result(region, scale, peak=peak), bins=4, samples=20, **what)
             self.assertEqual(curve.points.tolist(), [79, 79, 71, 71])
             self.assertEqual(curve.exceeding.tolist(), [5, 25, 49, 67])
             self.assertEqual(curve.without_verdict.tolist(), [1, 1, 9, 9])
@@ -503,9 +522,17 @@ class AnEdgeCase(unittest.TestCase):
             overturn.fragility(data.interp(scale=data.scale.values[:-1] * 1.03))
         with self.assertRaisesRegex(ValueError, "region has no flag_meanings"):
             overturn.fragility(whole.assign(region=plain))
-        for limit in (float("nan"), -1, 0, 1.01, 5, 18.4, 50):
-            with self.assertRaisesRegex(ValueError, f"limit = {limit} must be in"):
-                overturn.fragility(whole, limit=limit)
+        for above in (float("nan"), -1, 0, 1.01, 5, 18.4, 50):
+            with self.assertRaisesRegex(ValueError, f"above = {above} must be in"):
+                overturn.fragility(whole, of="peak", above=above)
+        with self.assertRaisesRegex(TypeError, 'no argument limit: write of="peak", above=0.4'):
+            overturn.fragility(whole, limit=0.5)
+        for words, what in (("above = 0.4 is the level of a field", {"above": 0.4}), ("needs above", {"of": "peak"}),
+                            ("above = inf is not a finite number", {"of": "slide_peak", "above": np.inf}),
+                            ("no field region of numbers .* Add it", {"of": "region", "above": 3}),
+                            ("no field pgv", {"of": "pgv", "above": 3}), ("of = None is not the name", {"of": None})):
+            with self.assertRaisesRegex(ValueError, words):
+                overturn.fragility(whole, **what)
 
     def test_units_are_those_of_the_variable(self):
         whole = result(*graded())

@@ -114,9 +114,9 @@ class TestAPicture(Curve):
     def test_has_a_name_of_its_own(self):
         self.assertEqual(fragility_curves.read_arguments(["result.h5"]).output, "result_fragility.png")
 
-    def test_of_a_limit_counts_more_points(self):
+    def test_of_peaks_above_a_level_counts_more_points(self):
         overturning, _ = self.words("result.h5")
-        rocking, words = self.words("result.h5", "--limit", "0.3")
+        rocking, words = self.words("result.h5", "--of", "peak", "--above", "0.3")
         self.assertIn("fraction with a peak", words)
         counts = [int(re.search(r": (\d+) of 600 points", text)[1]) for text in (overturning, rocking)]
         self.assertLess(*counts)
@@ -166,13 +166,16 @@ class TestACurveRefused(Curve):
         self.refuses(2, "'motion' is not an intensity measure", "result.h5", "--im", "motion")
         self.refuses(2, "'pgv' is not a property of the blocks", "result.h5", "--by", "pgv")
         self.overturn("run", "region.h5", 'output.fields=["region"]')
-        self.refuses(2, "has no field peak", "region.h5", "--limit", "1")
+        self.refuses(2, "has no field peak", "region.h5", "--of", "peak", "--above", "1")
+        self.refuses(2, "no field slide_peak of numbers to be above 0.1. Add it to output.fields. Those that it has: peak.",
+                     "result.h5", "--of", "slide_peak", "--above", "0.1")
+        self.refuses(2, "--limit is called --of peak --above now", "result.h5", "--limit", "0.3")
         self.refuses(2, "has no field friction_demand", "region.h5", "--friction-demand", "0.5")
         self.refuses(2, "friction_demand = 35.0 is not a number above 0", "region.h5", "--friction-demand", "35")
 
 
 class TestATableOfToCsv(Curve):
-    OPTIONS = ("--limit", "0.4", "--bins", "7", "--samples", "30", "--seed", "4")
+    OPTIONS = ("--of", "peak", "--above", "0.4", "--bins", "7", "--samples", "30", "--seed", "4")
 
     def tables(self, *command, tool):
         """Returns the names and the contents of the tables that a command writes."""
@@ -210,7 +213,7 @@ class TestATableOfToCsv(Curve):
         for words, name in ((("--slenderness", "0"), "slenderness"), (("--index", "size=0"), "index"),
                             (("--units", "job"), "units"), (("--events",), "events")):
             self.refuses(2, f"--{name} is not for fragility curves", "result.h5", *words, "--fragility", "pga", tool="to_csv")
-        for words in (("--bins", "3"), ("--by", "size"), ("--friction-demand", "0.4")):
+        for words in (("--bins", "3"), ("--by", "size"), ("--friction-demand", "0.4"), ("--above", "0.4")):
             self.refuses(2, f"{words[0]} is for --fragility MEASURE only", "result.h5", *words, tool="to_csv")
         self.overturn("run", "pulse.h5", job='scene.pulse="one_sine"\n[plane]\nfrequency=3\namplitude=2\nslenderness=0.2\n'
                                              "restitution=0.8\n")

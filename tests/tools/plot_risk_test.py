@@ -40,12 +40,12 @@ class TestAPicture(Picture):
             self.assertIn(line, words)
 
     def test_is_drawn_against_the_measure_of_the_hazard(self):
-        text, words = self.words("result.h5", OPENQUAKE, "--site", "1", "--together", "size", "--limit", "0.5",
-                                 "--samples", "50")
+        text, words = self.words("result.h5", OPENQUAKE, "--site", "1", "--together", "size", "--of", "peak",
+                                 "--above", "0.5", "--samples", "50")
         self.assertIn("peak above 0.5 against pgv [m s-1]", text)
         self.assertIn("4 blocks together", text)
         self.assertIn("PGV [m/s]", words)
-        self.assertIn("fragility: one of the blocks has a peak above 0.5", words)
+        self.assertIn("fragility: one of the blocks has peak &gt; 0.5", words)
 
     def test_of_an_unfinished_file_shows_both_bounds(self):
         shutil.copy(self.folder / "result.h5", self.folder / "part.h5")

@@ -1,6 +1,11 @@
 """Checks of the arguments of functions."""
 
+import functools
+
 import numpy as np
+
+OLD_FRICTION = {"friction": "it is called friction_demand now"}
+OLD_LIMIT = {"limit": "write of=\"peak\", above=0.4 in place of limit=0.4"}
 
 
 class ArgumentError(TypeError, ValueError):
@@ -16,6 +21,18 @@ def refuse(arguments, reason):
     """Raises ArgumentError if there is an argument."""
     if arguments:
         raise ArgumentError(f"{next(iter(arguments))} {reason}. Remove it.")
+
+
+def refuses_old(advice):
+    """Decorates a function that had the arguments whose names are the keys of `advice`."""
+    def decorated(function):
+        @functools.wraps(function)
+        def checked(*arguments, **named):
+            for name in sorted(named.keys() & advice.keys()):
+                raise TypeError(f"{function.__name__}() has no argument {name}: {advice[name]}.")
+            return function(*arguments, **named)
+        return checked
+    return decorated
 
 
 def expect_dataset(dataset):

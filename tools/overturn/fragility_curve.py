@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import dataclasses
-import math
 import os
 import re
 from typing import TYPE_CHECKING
@@ -14,10 +13,11 @@ from scipy.sparse import coo_array
 from scipy.special import ndtr
 
 from overturn import lognormal_fit
-from overturn.arguments import count, expect_dataset, number
-from overturn.block_groups import blocks_at_one_site, counted
-from overturn.friction import codes_of, decided_points, expect_coefficient, slipping_points, takes_friction_demand
-from overturn.joint_blocks import combined
+from overturn.arguments import OLD_FRICTION, OLD_LIMIT, count, expect_dataset, refuses_old
+from overturn.block_groups import counted
+from overturn.exceedance import OVERTURNING, Exceedance
+from overturn.fragility_points import edges_of, is_measurable, left_out, points_of
+from overturn.friction import expect_coefficient
 from overturn.motion_words import is_of_floor, measure_named, variable_of
 from overturn.output_file import new_file
 
@@ -38,12 +38,13 @@ _ROW = re.compile(f"[-+.0-9einfa]*(,[-+.0-9einfa]*){{{len(_COLUMNS) + 1}}}")
 @dataclasses.dataclass(frozen=True, eq=False)
 class Fragility:
     """Points per bin of the intensity measure, and the lognormal curve fitted to the single points. A
-    point is one block under one motion at one scale. It exceeds if it overturns, or if peak is above
-    `limit`. NaN: there is no such number, see `notes`."""
+    point is one block under one motion at one scale. It exceeds if it overturns, or if the field `of` is above a
+    level. NaN: there is no such number, see `notes`."""
 
     im: str  #: name of the intensity measure; of a floor "pfa", "pfv", "floor_arias_intensity", ...
     units: str  #: of the intensity measure
-    limit: float | None  #: of peak, the largest |theta| / alpha; None: overturning is counted
+    of: str  #: what is counted: "overturning", or a field such as "peak"
+    above: float | None  #: the level of the field that is exceeded, in its unit
     edges: NDArray[np.float64]  #: of the bins, evenly spaced in the logarithm; one more than bins
     points: NDArray[np.int64]  #: with a verdict, per bin
     exceeding: NDArray[np.int64]  #: per bin
@@ -72,14 +73,17 @@ class Fragility:
         """Exceeding points / points with a verdict per bin; NaN in a bin without any."""
         return np.divide(self.exceeding, self.points, out=np.full(len(self.points), np.nan), where=self.points > 0)
 
+    @property
+    def exceedance(self) -> Exceedance:
+        return Exceedance(self.of, self.above)
+
     def summary(self) -> str:
         """Returns the numbers as a text of several lines."""
         blocks = counted(self.blocks, self.kind)
         if self.blocks > 1 or self.kind.endswith("directions"):
             blocks += " together" if self.together else " pooled"
-        what = "overturning" if self.limit is None else f"peak above {self.limit:g}"
-        lines = [f"{what} against {self.im} [{self.units}]: {self.exceeding.sum()} of {self.points.sum()} points with "
-                 f"a verdict, {self.motions} motions, {blocks}; {self.undecided} undecided, {self.not_computed} not "
+        lines = [f"{self.exceedance.noun()} against {self.im} [{self.units}]: {self.exceeding.sum()} of "
+                 f"{self.points.sum()} points with a verdict, {self.motions} motions, {blocks}; {self.undecided} undecided, {self.not_computed} not "
                  "computed", *[self.group] * bool(self.group)]
         if np.isfinite(self.median):
             lines += [f"{name} {number:.4g}" + (f" ({low:.4g} to {high:.4g})" if np.isfinite(low) else "")
@@ -112,8 +116,9 @@ def _is_own(beginning):
             and all(_ROW.fullmatch(row) for row in rows[1:]))
 
 
-@takes_friction_demand
-def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = None, *, friction_demand: float | None = None,
+@refuses_old(OLD_FRICTION | OLD_LIMIT)
+def fragility(dataset: xarray.Dataset, im: str = "pgv", *, of: str = OVERTURNING, above: float | None = None,
+              friction_demand: float | None = None,
               together: str | None = None, bins: int = 10, samples: int = 1000, seed: int = 1) -> Fragility:
     """Returns the fragility curve of a result under records, see open(). All its blocks are pooled and count
     alike: choose some by dataset.isel() or dataset.sel() first.
@@ -122,7 +127,8 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
         numbers over the dimension motion, which is taken to be proportional to the motion. The measures of
         the records are scaled like the motions. Under motions of a floor, these are measures of the floor, and the
         curve names them "pfa", "pfv", ...; "ground_pga" is the PGA of the ground that caused them.
-    limit: in (0, 1], counts points whose field peak is above it; None counts those that overturn.
+    of, above: what is counted: points that overturn or, for the name of a field of the result, those whose value is above
+        a level in the unit of the field, such as of="peak", above=0.4. Points whose value is NaN have no verdict.
     friction_demand: coefficient between block and ground, up to 2; points that need more, see the field friction_demand, have no
         verdict.
     together: column or axis that distinguishes the blocks of one site, such as "block". A point is then one block of
@@ -138,32 +144,23 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", limit: float | None = No
     dataset lacks what is needed.
     """
     bins, samples, seed = count("bins", bins), count("samples", samples), count("seed", seed, least=0)
-    if limit is not None and not 0 < number("limit", limit) <= 1:
-        raise ValueError(f"limit = {limit} must be in (0, 1]: the peak |theta| / alpha that counts as exceeding, not "
-                         "an angle or a percentage.")
+    exceedance = Exceedance(of, above)
     if friction_demand is not None:
         expect_coefficient(friction_demand)
     measure, im = measure_of(dataset, im), name_of_measure(dataset, im)
-    of_blocks, parts, notes = _blocks(dataset["region"]), [dataset], ()
-    if together is not None:
-        blocks, parts, dimension = blocks_at_one_site(dataset, together)
-        of_blocks = {"blocks": blocks}
-        if dimension in measure.dims:
-            measure = measure.max(dimension, keep_attrs=True)
-            notes = f"{im} is the largest of those in the directions of the blocks",
-    cells = combined([cells_of(part, measure, limit, friction_demand, together is not None) for part in parts])
+    cells, of_blocks, notes = points_of(dataset, {im: measure}, exceedance, friction_demand, together)
     edges = edges_of(cells, bins)
     counts = _counts(cells)
     value = np.geomspace(edges[0], edges[-1], VALUES_OF_CURVE) if len(edges) else np.empty(0)
-    verb = "overturns" if limit is None else f"has a peak above {limit:g}"
+    verb = exceedance.verb()
     reason = _why_no_fit(counts, im, verb)
     fit = None if reason else lognormal_fit.fit(counts, np.log(value), samples, seed)
     if not reason and not fit:
         reason = f"no fit: the probability that a point {verb} does not rise with {im}"
-    return Fragility(im, units_of(measure, im), limit, edges, **_histograms(cells, edges),
+    return Fragility(im, units_of(measure, im), of, above, edges, **_histograms(cells, edges),
                      undecided=int(cells["undecided"].sum()), not_computed=int(cells["not_computed"].sum()),
                      motions=counts.points.shape[0], together=together or "", **of_blocks, **_fitted(fit, value),
-                     notes=(*notes, *_left_out(cells, im, friction_demand), *_without_slipping(fit, cells), *[reason] * bool(reason),
+                     notes=(*notes, *left_out(cells, im, friction_demand), *_without_slipping(fit, cells), *[reason] * bool(reason),
                             *_extrapolated(fit, edges, im), *_without_band(fit, counts, samples)))
 
 
@@ -212,75 +209,9 @@ def _is_measure(dataset, name):
     return dataset[name].dims == ("motion",) or is_known
 
 
-def _blocks(region):
-    """Returns the number of blocks, and what they are: rows of a table may be one block several times."""
-    sizes = {name: count for name, count in region.sizes.items() if name not in ("motion", "scale", "pga")}
-    directions = sizes.pop("direction", 1)
-    blocks = math.prod(sizes.values())
-    kind = "rows of the table" if sizes.get("block") == blocks else "blocks"
-    return {"blocks": blocks, "kind": kind + f" in {directions} directions" * (directions > 1)}
-
-
 def units_of(measure, im):
     units = str(measure.attrs.get("units", "1"))
     return "g" if im in ("pga", "pfa") and units == "1" else units
-
-
-def cells_of(dataset, measure, limit, friction_demand, by_direction=False):
-    """Returns arrays with an entry per motion and value of the measure, and per direction if requested: the motion, the
-    value, and the numbers of points of each kind."""
-    region = dataset["region"]
-    decided, codes = decided_points(region), codes_of(region)
-    not_computed = region == codes["not_computed"]
-    if limit is None:
-        exceeding = decided & ~region.isin([code for name, code in codes.items() if name.startswith("S")])
-    elif "peak" in dataset:
-        decided = decided & dataset["peak"].notnull()
-        exceeding = decided & (dataset["peak"] > limit)
-    else:
-        raise ValueError("this result has no field peak, which limit is compared with. Add it to output.fields.")
-    slipping = decided & False
-    if friction_demand is not None:
-        slipping = slipping_points(dataset, decided, friction_demand)
-        decided, exceeding = decided & ~slipping, exceeding & ~slipping
-    motion = _numbered(dataset)
-    kept = [name for name in region.dims if name in (*measure.dims, *motion.dims, *["direction"] * by_direction)]
-    kinds = {"points": decided, "exceeding": exceeding, "not_computed": not_computed,
-             "undecided": ~decided & ~not_computed, "slipping": slipping}
-    others = [name for name in region.dims if name not in kept]
-    like = region.isel(dict.fromkeys(others, 0), drop=True)
-    cells = {name: kind.astype(np.int32).sum(others).transpose(*kept).values.ravel() for name, kind in kinds.items()}
-    for name, values in (("measure", measure), ("motion", motion)):
-        cells[name] = values.broadcast_like(like).transpose(*kept).values.ravel()
-    return cells
-
-
-def _numbered(dataset):
-    """Returns the coordinate motion, with different numbers for motions of different names: results that were joined
-    number theirs alike."""
-    motion = dataset["motion"]
-    if "motion_name" not in dataset or dataset["motion_name"].dims != motion.dims:
-        return motion
-    names = np.char.add(motion.values.astype(str), np.char.add(" ", dataset["motion_name"].values.astype(str)))
-    return motion.copy(data=np.unique(names, return_inverse=True)[1].reshape(motion.shape))
-
-
-def is_measurable(cells):
-    """Whether the logarithm of the measure exists."""
-    return np.isfinite(cells["measure"]) & (cells["measure"] > 0)
-
-
-def edges_of(cells, bins):
-    """Returns the edges of the bins, over the range of the points with a verdict; none without such points."""
-    measure = cells["measure"][is_measurable(cells) & (cells["points"] > 0)]
-    if not measure.size:
-        return np.empty(0)
-    low, high = measure.min(), measure.max()
-    if low == high:
-        return np.array([low / 1.05, high * 1.05])
-    edges = np.geomspace(low, high, bins + 1)
-    edges[0], edges[-1] = low, high
-    return edges
 
 
 def _histograms(cells, edges):
@@ -333,29 +264,6 @@ def _why_no_fit(counts, im, verb):
                   else f"every point does so from {above:.4g} on")
         return f"no fit, because there is no scatter: no point {verb} up to {im} = {below:.4g}, and {others}"
     return ""
-
-
-def _left_out(cells, im, friction_demand):
-    """Returns notes on the points that are not in the curve."""
-    undecided, not_computed = (int(cells[name].sum()) for name in ("undecided", "not_computed"))
-    total = int(cells["points"].sum()) + undecided + not_computed
-    unmeasured = int(cells["points"][~is_measurable(cells)].sum())
-    motions = len(np.unique(cells["motion"]))
-    without = motions - len(np.unique(cells["motion"][cells["points"] > 0]))
-    return ([f"the result is unfinished: {not_computed} of {total} points are not computed and left out"]
-            * (not_computed > 0)
-            + [f"{without} of {motions} motions have no point with a verdict"] * (without > 0)
-            + [f"left out: {undecided} of {total} points, which {_undecided(cells, friction_demand)}"] * (undecided > 0)
-            + [f"left out: {unmeasured} points whose {im} is not positive"] * (unmeasured > 0))
-
-
-def _undecided(cells, friction_demand):
-    """Returns why points are undecided."""
-    undecided, slipping = (int(cells[name].sum()) for name in ("undecided", "slipping"))
-    if not slipping:
-        return "are undecided"
-    need = f"need a friction coefficient above {friction_demand:g}, or an unknown one"
-    return need if slipping == undecided else f"are undecided, {slipping} of them because they {need}"
 
 
 def _without_slipping(fit, cells):

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import functools
 import numbers
 from typing import TYPE_CHECKING
 
-from overturn.arguments import expect_dataset
+from overturn.arguments import OLD_FRICTION, expect_dataset, refuses_old
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Iterable
@@ -16,16 +15,6 @@ if TYPE_CHECKING:
 LARGEST = 2  # rubber on rock has 1
 
 
-def takes_friction_demand(function):
-    """Decorates a function whose argument friction_demand was called friction."""
-    @functools.wraps(function)
-    def checked(*arguments, **named):
-        if "friction" in named:
-            raise TypeError(f"{function.__name__}() has no argument friction: it is called friction_demand now.")
-        return function(*arguments, **named)
-    return checked
-
-
 def expect_coefficient(friction_demand):
     """Raises ValueError unless this is a friction coefficient, not an angle."""
     if isinstance(friction_demand, bool) or not isinstance(friction_demand, numbers.Real) or not 0 < friction_demand <= LARGEST:
@@ -33,7 +22,7 @@ def expect_coefficient(friction_demand):
                          "between block and ground, the tangent of the friction angle.")
 
 
-@takes_friction_demand
+@refuses_old(OLD_FRICTION)
 def supported_share(dataset: xarray.Dataset, friction_demand: float,
                     dim: Hashable | Iterable[Hashable] | None = None) -> xarray.DataArray:
     """Returns the share of the verdicts of a result, see open(), that hold with a friction coefficient [1].

@@ -14,7 +14,7 @@ MOST_POINTS = 2**53  # exact as numbers of floating point
 
 
 def combined(parts):
-    """Returns the points of fragility_curve.cells_of() in which a point is a combination of one point of each part,
+    """Returns the points of fragility_points.cells_of() in which a point is a combination of one point of each part,
     under one motion at one value of the measure. It exceeds if one of them does, whatever the others; it has no verdict
     if none is known to exceed and one of them has no verdict.
 

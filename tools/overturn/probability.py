@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import ndtr
 
-from overturn.arguments import count, number, numbers
-from overturn.fragility_curve import Fragility, cells_of, edges_of, is_measurable, measure_of, name_of_measure, units_of
-from overturn.friction import takes_friction_demand
+from overturn.arguments import OLD_FRICTION, OLD_LIMIT, count, number, numbers, refuses_old
+from overturn.exceedance import OVERTURNING, Exceedance
+from overturn.fragility_curve import Fragility
+from overturn.fragility_plane import points_of_plane
 from overturn.lognormal_fit import LEAST_MOTIONS
 
 if TYPE_CHECKING:
@@ -168,10 +169,10 @@ def _mass(density, nodes, weights, x):
     return mass / np.where(whole, total, 1)[:, None], np.where(whole, 0, 1 - total)
 
 
-@takes_friction_demand
-def binned_marginal(dataset: xarray.Dataset, x: str, y: str, density: Callable, *, limit: float | None = None,
-                    friction_demand: float | None = None, bins: tuple[int, int] = (10, 10), samples: int = 1000,
-                    seed: int = 1) -> Probability:
+@refuses_old(OLD_FRICTION | OLD_LIMIT)
+def binned_marginal(dataset: xarray.Dataset, x: str, y: str, density: Callable, *, of: str = OVERTURNING,
+                    above: float | None = None, friction_demand: float | None = None, together: str | None = None,
+                    bins: tuple[int, int] = (10, 10), samples: int = 1000, seed: int = 1) -> Probability:
     """Returns P(x) = integral of P(x, y) f(y | x) dy of a result under records, where P(x, y) is the share of the
     points that overturns in bins of two intensity measures, evenly spaced in their logarithms. Points without a verdict
     are safe in the lower bound and overturn in the upper one. In bins without points, P is bounded as by binned().
@@ -179,32 +180,21 @@ def binned_marginal(dataset: xarray.Dataset, x: str, y: str, density: Callable, 
 
     x, y: measures as for fragility(), or ratios of two, such as "pgv/pga".
     density(y, x): f, as for marginal().
-    limit, friction_demand, samples, seed: as for fragility(). There are no samples with fewer than ten motions.
+    of, above, friction_demand, together, samples, seed: as for fragility(). There are no samples with fewer than ten motions.
 
     Raises ValueError if the dataset lacks what is needed.
     """
-    import xarray
     if not isinstance(bins, (list, tuple)) or len(bins) != 2:
         raise ValueError(f"bins = {bins!r} are not two numbers of bins, of x and of y.")
     bins = [count("bins", each) for each in bins]
     samples, seed = count("samples", samples, least=0), count("seed", seed, least=0)
-    of_x, of_y = xarray.broadcast(_measure(dataset, x), _measure(dataset, y))
-    cells, second = (cells_of(dataset, measure, limit, friction_demand) for measure in (of_x, of_y))
-    edges = [edges_of(each, count) for each, count in zip((cells, second), bins)]
-    if not (len(edges[0]) and len(edges[1])):
-        raise ValueError("no point of this result has a verdict. Compute the missing points.")
-    kept = is_measurable(cells) & is_measurable(second)
-    motions, number = np.unique(cells["motion"][kept], return_inverse=True)
-    places = number, cells["measure"][kept], second["measure"][kept]
-
-    def total_of(kind):
-        return np.histogramdd(places, [np.arange(len(motions) + 1) - 0.5, *edges], weights=kind[kept])[0]
-    exceeding, unknown = total_of(cells["exceeding"]), total_of(cells["undecided"] + cells["not_computed"])
-    total = unknown + total_of(cells["points"])
+    found = points_of_plane(dataset, x, y, Exceedance(of, above), friction_demand, together, bins)
+    motions, edges = found.motions, found.edges
+    points, exceeding, unknown = found.totals()
     drawn = np.random.default_rng(seed).multinomial(
         len(motions), np.full(len(motions), 1 / len(motions)), samples * (len(motions) >= LEAST_MOTIONS))
     low, high, total = (np.tensordot(np.vstack([np.ones(len(motions)), drawn]), sums, 1)
-                        for sums in (exceeding, exceeding + unknown, total))
+                        for sums in (exceeding, exceeding + unknown, points + unknown))
     shares = np.stack([low, high], axis=1)
     shares = np.divide(shares, total[:, None], out=np.full(shares.shape, np.nan), where=total[:, None] > 0)
     nodes, weights = _nodes(edges[1])
@@ -212,10 +202,4 @@ def binned_marginal(dataset: xarray.Dataset, x: str, y: str, density: Callable, 
     def mass(x):
         each, elsewhere = _mass(density, nodes, weights, x)
         return each.reshape(len(x), len(edges[1]) - 1, -1).sum(axis=2), elsewhere
-    im = "/".join(name_of_measure(dataset, each) for each in x.split("/"))
-    return _in_bins(edges[0], shares, im, units_of(of_x, im), mass)
-
-
-def _measure(dataset, name):
-    first, *others = (measure_of(dataset, each) for each in name.split("/"))
-    return first / others[0] if others else first
+    return _in_bins(edges[0], shares, found.names[0], found.units[0], mass)

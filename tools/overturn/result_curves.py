@@ -7,6 +7,7 @@ import pathlib
 
 import overturn
 from overturn.block_groups import groups_of
+from overturn.exceedance import OVERTURNING
 from overturn.tool import USAGE, Renamed, ToolError
 
 
@@ -18,9 +19,11 @@ def add_group_argument(parser):
 
 def add_curve_arguments(parser, bins):
     """Adds the arguments of a curve, see compute_curve()."""
-    parser.add_argument("--limit", type=float, metavar="PEAK",
-                        help="count the points whose field peak, the largest |theta| / alpha, is above PEAK, at "
-                             "most 1; otherwise those that overturn")
+    parser.add_argument("--of", metavar="FIELD", default=OVERTURNING,
+                        help="with --above, count the points whose field, such as peak or slide_peak, is above X; otherwise "
+                             "those that overturn")
+    parser.add_argument("--above", type=float, metavar="X", help="in the unit of the field; of peak, at most 1")
+    parser.add_argument("--limit", action=Renamed, const="--of peak --above", help=argparse.SUPPRESS)
     parser.add_argument("--friction", action=Renamed, const="--friction-demand", help=argparse.SUPPRESS)
     parser.add_argument("--friction-demand", type=float, metavar="MU",
                         help="friction coefficient between block and ground: points whose field friction_demand is above MU "
@@ -33,8 +36,8 @@ def add_curve_arguments(parser, bins):
 
 
 def compute_curve(dataset, im, arguments, **further):
-    return overturn.fragility(dataset, im, arguments.limit, friction_demand=arguments.friction_demand, bins=arguments.bins,
-                              samples=arguments.samples, seed=arguments.seed, **further)
+    return overturn.fragility(dataset, im, of=arguments.of, above=arguments.above, friction_demand=arguments.friction_demand,
+                              bins=arguments.bins, samples=arguments.samples, seed=arguments.seed, **further)
 
 
 @contextlib.contextmanager

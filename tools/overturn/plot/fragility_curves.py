@@ -40,6 +40,7 @@ NAMES = {"pga": "PGA", "pgv": "PGV", "arias_intensity": "Arias intensity",
          "floor_arias_intensity": "Arias intensity of the floor",
          "floor_significant_duration": "significant duration of the floor"}
 UNITS = {"m s-1": "m/s"}
+FIELDS = {"peak": r"a peak $|\theta|\,/\,\alpha$", "slide_peak": "a largest slide, over R,"}
 TEXT_WIDTH = 58  # characters that fit below a panel
 TITLE_WIDTH = 4.6  # above it [inches]
 WITHOUT_VERDICT = "with points without a verdict"
@@ -94,8 +95,8 @@ def draw_panel(ax, curves):
         ax.set_xlim(min(ends), max(ends))
         name_ticks(ax.xaxis)
     ax.set_ylim(-0.03, 1.03)
-    ax.set_ylabel("fraction that overturns" if first.limit is None
-                  else rf"fraction with a peak $|\theta|\,/\,\alpha$ above {first.limit:g}")
+    ax.set_ylabel("fraction that overturns" if first.above is None
+                  else f"fraction with {FIELDS.get(first.of, first.of)} above {first.above:g}")
     notes = [escaped(f"{curve.group}: {note}" if curve.group else note) for curve in curves for note in curve.notes]
     ax.set_xlabel("\n".join([f"{NAMES.get(first.im, first.im)} [{UNITS.get(first.units, first.units)}]",
                              *(line for note in notes for line in textwrap.wrap(note, TEXT_WIDTH))]))

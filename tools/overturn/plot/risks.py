@@ -93,12 +93,12 @@ def draw_fragility(ax, hazard, fragility):
     if is_open:
         ax.fill_between(x, *bounds[0], color=UPPER, linewidth=0, label="up to: if they overturn")
     ax.plot(x, bounds[0, 0], color=COLOURS[0], linewidth=2, label="fragility" + SAFE * is_open)
+    what = "a block overturns"
     if isinstance(fragility, overturn.Fragility):
         draw_bins(ax, fragility, POINT, "o", "full")
-    limit, together = (getattr(fragility, name, None) for name in ("limit", "together"))
-    what = "overturns" if limit is None else rf"has a peak above {limit:g}"
+        what = f"{'one of the blocks' if fragility.together else 'a block'} {fragility.exceedance.verb()}"
     ax.set(ylim=(-0.03, 1.03), ylabel="probability")
-    ax.set_title(f"fragility: {'one of the blocks' if together else 'a block'} {what}", fontsize=9)
+    ax.set_title(f"fragility: {what}", fontsize=9)
     ax.legend(fontsize=8, loc="upper left")
 
 

@@ -9,10 +9,11 @@ from types import SimpleNamespace
 
 import numpy as np
 from matplotlib.lines import Line2D
+from overturn.arguments import OLD_FRICTION, refuses_old
 from overturn.captions import ground_word, heading, panel_titles, plain, subtitle
 from overturn.choice import add_choice_arguments, sheet_of
 from overturn.colourings import VALUE, Field, Regions, Verdicts
-from overturn.friction import expect_coefficient, takes_friction_demand
+from overturn.friction import expect_coefficient
 from overturn.marked_points import Misjudged, Slipping
 from overturn.output_file import save
 from overturn.overlay import draw_boundary, open_boundary
@@ -179,7 +180,7 @@ def draw(path, arguments, dpi, ax=None):
         return draw_sheet(planes, columns, left_out, layers, arguments, dpi), len(planes), report
 
 
-@takes_friction_demand
+@refuses_old(OLD_FRICTION)
 def spectrum(result, *, motion: int | None = None, slenderness: int | None = None,
              restitution: int | None = None, index: Mapping[str, int] = {}, units: str = "job", boundary=None,
              practice: bool = False, friction_demand: float | None = None, labels: tuple[str, ...] = (), title: str | None = None,

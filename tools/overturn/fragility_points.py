@@ -1,0 +1,105 @@
+"""The points of a fragility: how many exceed, under each motion at each value of the intensity measure."""
+
+import math
+
+import numpy as np
+
+from overturn.block_groups import blocks_at_one_site
+from overturn.exceedance import EXCEEDING, NOT_COMPUTED, SAFE, SLIPPING, UNDECIDED
+from overturn.joint_blocks import combined
+
+VERDICTS = {"points": (SAFE, EXCEEDING), "exceeding": (EXCEEDING,), "undecided": (UNDECIDED, SLIPPING),
+            "not_computed": (NOT_COMPUTED,), "slipping": (SLIPPING,)}
+
+
+def points_of(dataset, measures, exceedance, friction_demand, together=None):
+    """Returns arrays with an entry per motion and value of the measures (and per direction of the motion, for blocks
+    together): the motion, the measures (a list), the first of them as "measure", and the numbers of points of each kind;
+    which blocks these are, as fields of a Fragility; and notes.
+
+    measures: of every motion at every scale, by name."""
+    blocks, parts, dimension = _blocks(dataset), [dataset], None
+    if together is not None:
+        number, parts, dimension = blocks_at_one_site(dataset, together)
+        blocks = {"blocks": number}
+    vary = [name for name, each in measures.items() if dimension in each.dims and dimension not in dataset["motion"].dims]
+    values = [each.max(dimension, keep_attrs=True) if together is not None and name in vary else each
+              for name, each in measures.items()]
+    cells = combined([cells_of(part, values, exceedance, friction_demand, together is not None) for part in parts])
+    return cells, blocks, [f"{name} is the largest of those in the directions of the blocks" for name in vary]
+
+
+def _blocks(dataset):
+    """Returns the number of blocks, and what they are: rows of a table may be one block several times."""
+    sizes = {name: count for name, count in dataset["region"].sizes.items() if name not in ("motion", "scale", "pga")}
+    directions = sizes.pop("direction", 1)
+    number = math.prod(sizes.values())
+    kind = "rows of the table" if sizes.get("block") == number else "blocks"
+    return {"blocks": number, "kind": kind + f" in {directions} directions" * (directions > 1)}
+
+
+def cells_of(dataset, measures, exceedance, friction_demand, by_direction=False):
+    """Returns arrays with an entry per motion and value of the measures, and per direction if requested, see points_of()."""
+    verdict, motion = exceedance.verdicts(dataset, friction_demand), _numbered(dataset)
+    kept = [name for name in verdict.dims if name in (*(name for each in (motion, *measures) for name in each.dims),
+                                                      *["direction"] * by_direction)]
+    others = [name for name in verdict.dims if name not in kept]
+    like = verdict.isel(dict.fromkeys(others, 0), drop=True)
+
+    def flat(values):
+        return values.broadcast_like(like).transpose(*kept).values.ravel()
+    cells = {kind: verdict.isin(codes).astype(np.int32).sum(others).transpose(*kept).values.ravel()
+             for kind, codes in VERDICTS.items()}
+    values = [flat(each) for each in measures]
+    return {**cells, "motion": flat(motion), "measures": values, "measure": values[0]}
+
+
+def _numbered(dataset):
+    """Returns the coordinate motion, with different numbers for motions of different names: results that were joined
+    number theirs alike."""
+    motion = dataset["motion"]
+    if "motion_name" not in dataset or dataset["motion_name"].dims != motion.dims:
+        return motion
+    names = np.char.add(motion.values.astype(str), np.char.add(" ", dataset["motion_name"].values.astype(str)))
+    return motion.copy(data=np.unique(names, return_inverse=True)[1].reshape(motion.shape))
+
+
+def is_measurable(cells):
+    """Whether the logarithm of the measure exists."""
+    return np.isfinite(cells["measure"]) & (cells["measure"] > 0)
+
+
+def edges_of(cells, bins):
+    """Returns the edges of the bins, over the range of the points with a verdict; none without such points."""
+    measure = cells["measure"][is_measurable(cells) & (cells["points"] > 0)]
+    if not measure.size:
+        return np.empty(0)
+    low, high = measure.min(), measure.max()
+    if low == high:
+        return np.array([low / 1.05, high * 1.05])
+    edges = np.geomspace(low, high, bins + 1)
+    edges[0], edges[-1] = low, high
+    return edges
+
+
+def left_out(cells, im, friction_demand):
+    """Returns notes on the points that are not in the curve."""
+    undecided, not_computed = (int(cells[name].sum()) for name in ("undecided", "not_computed"))
+    total = int(cells["points"].sum()) + undecided + not_computed
+    unmeasured = int(cells["points"][~is_measurable(cells)].sum())
+    motions = len(np.unique(cells["motion"]))
+    without = motions - len(np.unique(cells["motion"][cells["points"] > 0]))
+    return ([f"the result is unfinished: {not_computed} of {total} points are not computed and left out"]
+            * (not_computed > 0)
+            + [f"{without} of {motions} motions have no point with a verdict"] * (without > 0)
+            + [f"left out: {undecided} of {total} points, which {_undecided(cells, friction_demand)}"] * (undecided > 0)
+            + [f"left out: {unmeasured} points whose {im} is not positive"] * (unmeasured > 0))
+
+
+def _undecided(cells, friction_demand):
+    """Returns why points are undecided."""
+    undecided, slipping = (int(cells[name].sum()) for name in ("undecided", "slipping"))
+    if not slipping:
+        return "are undecided"
+    need = f"need a friction coefficient above {friction_demand:g}, or an unknown one"
+    return need if slipping == undecided else f"are undecided, {slipping} of them because they {need}"
