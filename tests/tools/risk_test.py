@@ -364,6 +364,17 @@ class TwoMeasures(unittest.TestCase):
         np.testing.assert_allclose(found.contribution[0, 2], 2 / 3 * (rate[0] - rate[1]), rtol=1e-12)
 
 
+    def test_of_a_result_count_an_object_once(self):
+        region, scale = population()
+        several = result(region[..., [0, 1, 2, 0, 1, 2]], scale).assign_coords(object=("block", [1, 2, 2, 3, 4, 4]))
+        either = np.where((region[..., [1]] == F) | (region[..., [2]] == F), F, S)
+        blocks = result(np.concatenate([region[..., [0]], either] * 2, axis=2), scale)
+
+        def at(data):
+            return risk.binned_marginal(data, "pga", "pgv", self.density, bins=(5, 5), samples=20).at(np.geomspace(0.2, 4, 9))
+        np.testing.assert_array_equal(at(several), at(blocks))
+
+
 class TheHazard(unittest.TestCase):
     def setUp(self):
         self.folder = new_folder(self.addCleanup)

@@ -242,7 +242,7 @@ class TestARock(InTheFolder):
                 turned[:, abs(axis) - 1] = np.sign(axis) * column
             self.assertGreater(signed_volume(turned, faces), 0)  # turned, not mirrored
             table = self.measure(turned, faces, turned[points[:, 2] == 0], up=up).table(step=15)
-            for key in expected.keys() - {"name"}:
+            for key in expected.keys() - {"object", "name"}:
                 np.testing.assert_allclose(table[key], expected[key], atol=ROUND_OFF)
 
     def test_on_a_dense_outline_is_not_made_wider_by_jitter(self):
@@ -427,10 +427,16 @@ class TestTheTable(InOneFolder):
         self.assertEqual((self.done.returncode, self.done.stderr), (0, ""))
         rows = self.rows("rock_blocks.csv")
         self.assertEqual([row["name"] for row in rows], [f"edge {i}" for i in range(1, 6)])
+        self.assertEqual({row["object"] for row in rows}, {"rock"})
         weakest = min(rows, key=lambda row: float(row["slenderness_plus"]))
         for words in ("1280 faces, closed; volume", "kg", "contacts    5, 5 on their outline", f"For {weakest['name']}:"):
             self.assertIn(words, self.done.stdout)
         self.assertIn(f"alpha = {math.degrees(float(weakest['slenderness_plus'])):.3g}", self.done.stdout)
+
+    def test_has_the_name_of_the_rock(self):
+        self.output_of(*self.words, "--name", 'the "old" one, east', "-o", "named.csv")
+        self.assertEqual({row["object"] for row in self.rows("named.csv")}, {'the "old" one, east'})
+        self.refuses(2, "the name of a rock must not be empty", *self.words, "--name", " ", "-o", "none.csv")
 
     def test_is_assessed(self):
         answer = json.loads(self.program("assess", "rock_blocks.csv", "--period", "0.5", "--json"))

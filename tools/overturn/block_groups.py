@@ -1,4 +1,7 @@
-"""Groups of the blocks of a result, by the values of a column of its table or of an axis."""
+"""Groups of the blocks of a result, by the values of a column of its table or of an axis; and the rows of a table that are
+one object."""
+
+import dataclasses
 
 import numpy as np
 
@@ -8,14 +11,64 @@ RANGES = 4  # of a column with more
 NOT_GIVEN = "not given"  # an empty number
 
 
+@dataclasses.dataclass(frozen=True, eq=False)
+class Objects:
+    """The rows of a table that are one thing, such as a rock in several azimuths: they have the same value of the column
+    `object` (and of `sample`, which distinguishes equally likely variants of an object), and, if each row has a motion of
+    its own, the same motion."""
+
+    dimension: str
+    names: np.ndarray  # number of the object of each row
+    samples: int  # of all objects together
+    of_row: np.ndarray  # number of the thing of each row
+
+    def largest(self, array):
+        """Returns the largest values of the rows of each thing, without coordinates along them."""
+        if self.dimension not in array.dims:
+            return array
+        import xarray
+        order = np.argsort(self.of_row, kind="stable")
+        first = np.flatnonzero(np.diff(self.of_row[order], prepend=-1))
+        axis = array.get_axis_num(self.dimension)
+        values = np.maximum.reduceat(array.values.take(order, axis), first, axis)
+        return xarray.DataArray(values, dims=array.dims, attrs=array.attrs)
+
+    def counted(self):
+        """Returns the number of objects, and of what."""
+        number, rows = len(np.unique(self.names)), len(self.names)
+        return number, f"objects in {rows} rows" + f" of {self.samples} samples" * (self.samples > number)
+
+
+def objects_of(dataset):
+    """Returns the Objects of a data set of overturn.open(), or None if its table has no column `object`. Raises ValueError
+    if a row has no object or no sample."""
+    if "object" not in dataset or not _is_of_blocks(dataset, "object"):
+        return None
+    dimension, = dataset["object"].dims
+    numbers = {}
+    for name in ("object", "sample", "motion", "motion_name", "scale"):
+        if name in dataset and dataset[name].dims == (dimension,):
+            values = dataset[name].values
+            empty = np.isnan(values) if values.dtype.kind == "f" else np.array([not str(each).strip() for each in values])
+            if empty.any() and name in ("object", "sample"):
+                raise ValueError(f"row {empty.argmax() + 1} of the table has no {name}. Give every row the {name} to which "
+                                 "it belongs.")
+            numbers[name] = np.unique(values, return_inverse=True)[1]
+
+    def combined(*names):
+        return np.unique(np.stack([numbers[name] for name in names if name in numbers]), axis=1, return_inverse=True)[1].ravel()
+    return Objects(dimension, numbers["object"], len(np.unique(combined("object", "sample"))), combined(*numbers))
+
+
 def groups_of(dataset, column):
     """Returns the parts of a data set of overturn.open(), by a text such as "kind = urn" or "size = 0.5 m". There is a
-    group for each value; if there are more than MOST_NUMBERS numbers, a group for each quarter of the blocks.
+    group for each value; if there are more than MOST_NUMBERS numbers, a group for each quarter of the blocks or objects.
 
     Raises ValueError if the column does not distinguish the blocks, or has too many different texts."""
     from overturn.captions import UNITS  # needs h5py
     values, dimension = _property(dataset, column)
-    labels = _labels(column, values)
+    objects = objects_of(dataset)
+    labels = _labels(column, values, objects.names if objects and objects.dimension == dimension else np.arange(len(values)))
     units = dataset[column].attrs.get("units", "1")
     unit = UNITS.get(units, units)
     name = column.replace("_", " ")
@@ -28,10 +81,11 @@ def groups_of(dataset, column):
 def blocks_at_one_site(dataset, column):
     """Returns the number of blocks at one site, which are those with different values of a column; the parts of a data
     set of overturn.open() that stand or overturn together; and the dimension along which they are. There is a part for
-    each block or, if the table has a column `direction`, for each of its directions: such rows are sides of one block.
+    each block or, if the table has a column `direction` but no `object`, for each of its directions: such rows are sides
+    of one block.
 
-    Raises ValueError if the column does not distinguish the blocks, has an empty value, or if the blocks have motions
-    of their own."""
+    Raises ValueError if the column does not distinguish the blocks, differs within an object, has an empty value, or if
+    the blocks have motions of their own."""
     if column == "direction" and column in dataset.dims:
         raise ValueError("direction is an axis of this result: the unknown direction of the motion, which all blocks "
                          "of a site share, and over which the probability is a mean. Choose what distinguishes the "
@@ -44,7 +98,12 @@ def blocks_at_one_site(dataset, column):
     if kinds.dtype.kind == "f" and np.isnan(kinds).any():
         raise ValueError(f"{column} has empty values. Give every block a value, or choose another column.")
     parts = [np.flatnonzero(values == kind) for kind in kinds]
-    if "direction" in dataset and dataset["direction"].dims == (dimension,):
+    objects = objects_of(dataset)
+    if objects and objects.dimension == dimension:
+        if sum(len(np.unique(objects.names[part])) for part in parts) > len(np.unique(objects.names)):
+            raise ValueError(f"{column} differs within an object, whose rows fall together anyway. Choose \"object\", or "
+                             "another column that is the same in all rows of an object.")
+    elif "direction" in dataset and dataset["direction"].dims == (dimension,):
         directions = dataset["direction"].values
         parts = [part[directions[part] == each] for part in parts for each in np.unique(directions[part])]
     return len(kinds), [dataset.isel({dimension: part}) for part in parts], dimension
@@ -79,8 +138,8 @@ def _is_of_blocks(dataset, name):
             and dimensions[0] not in ("motion", "scale", "pga"))
 
 
-def _labels(column, values):
-    """Returns the group of each value."""
+def _labels(column, values, blocks):
+    """Returns the group of each value, of the blocks of these numbers."""
     if values.dtype.kind not in "fiu":
         labels = np.array([str(value).strip() or "(empty)" for value in values], object)
         count = len(set(labels))
@@ -94,7 +153,8 @@ def _labels(column, values):
     if len(np.unique(numbers)) <= MOST_NUMBERS:
         labels[known] = texts_of(numbers, 6)
         return labels
-    ends = np.quantile(numbers, np.arange(1, RANGES) / RANGES)
+    of_blocks = np.unique(np.stack([blocks[known], numbers]), axis=1)[1]  # once, if it is the same in several rows
+    ends = np.quantile(of_blocks, np.arange(1, RANGES) / RANGES)
     place = np.searchsorted(ends, numbers)
     of_range = [np.flatnonzero(place == each) for each in sorted(set(place))]
     texts = texts_of(np.array([end(numbers[some]) for some in of_range for end in (np.min, np.max)]), 4)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from overturn.block_groups import blocks_at_one_site
+from overturn.block_groups import blocks_at_one_site, objects_of
 from overturn.exceedance import EXCEEDING, NOT_COMPUTED, SAFE, SLIPPING, UNDECIDED
 from overturn.joint_blocks import combined
 
@@ -18,29 +18,37 @@ def points_of(dataset, measures, exceedance, friction_demand, together=None):
     which blocks these are, as fields of a Fragility; and notes.
 
     measures: of every motion at every scale, by name."""
-    blocks, parts, dimension = _blocks(dataset), [dataset], None
+    objects, blocks = objects_of(dataset), _blocks(dataset)
+    parts, dimension, whose = [dataset], objects.dimension if objects else None, "rows of an object"
     if together is not None:
         number, parts, dimension = blocks_at_one_site(dataset, together)
-        blocks = {"blocks": number}
+        blocks, whose = (blocks if together == "object" else {"blocks": number}), "blocks"
     vary = [name for name, each in measures.items() if dimension in each.dims and dimension not in dataset["motion"].dims]
     values = [each.max(dimension, keep_attrs=True) if together is not None and name in vary else each
               for name, each in measures.items()]
     cells = combined([cells_of(part, values, exceedance, friction_demand, together is not None) for part in parts])
-    return cells, blocks, [f"{name} is the largest of those in the directions of the blocks" for name in vary]
+    return cells, blocks, [f"{name} is the largest of those in the directions of the {whose}" for name in vary]
 
 
 def _blocks(dataset):
     """Returns the number of blocks, and what they are: rows of a table may be one block several times."""
     sizes = {name: count for name, count in dataset["region"].sizes.items() if name not in ("motion", "scale", "pga")}
     directions = sizes.pop("direction", 1)
-    number = math.prod(sizes.values())
-    kind = "rows of the table" if sizes.get("block") == number else "blocks"
+    if objects := objects_of(dataset):
+        variants = math.prod(sizes.values()) // sizes[objects.dimension]
+        number, kind = objects.counted()
+        kind += f", {variants} variants each" * (variants > 1)
+    else:
+        number = math.prod(sizes.values())
+        kind = "rows of the table" if sizes.get("block") == number else "blocks"
     return {"blocks": number, "kind": kind + f" in {directions} directions" * (directions > 1)}
 
 
 def cells_of(dataset, measures, exceedance, friction_demand, by_direction=False):
     """Returns arrays with an entry per motion and value of the measures, and per direction if requested, see points_of()."""
     verdict, motion = exceedance.verdicts(dataset, friction_demand), _numbered(dataset)
+    if objects := objects_of(dataset):
+        verdict, motion, *measures = map(objects.largest, (verdict, motion, *measures))
     kept = [name for name in verdict.dims if name in (*(name for each in (motion, *measures) for name in each.dims),
                                                       *["direction"] * by_direction)]
     others = [name for name in verdict.dims if name not in kept]

@@ -6,6 +6,7 @@ from __future__ import annotations
 import collections
 import csv
 import dataclasses
+import io
 import math
 import os
 import pathlib
@@ -32,7 +33,8 @@ example:
 The contacts are a table with the columns x, y, z, in the coordinates and the unit of the mesh. The
 table of blocks has a row for each edge of their outline in plan, in the plane across the edge, or
 with --step for each of these azimuths. The side plus is that to which the azimuth points. The pivots
-are where the vertical plane through the centre of mass cuts the outline.
+are where the vertical plane through the centre of mass cuts the outline. The column object says that
+the rows are one rock, which falls if it falls in one of them.
 
 Azimuths are counted from x towards y, to the left seen from above. With --x-azimuth, the table also
 has the column direction, on a compass: it is then for records with a component to the north
@@ -57,6 +59,7 @@ SMALLEST, LARGEST = 0.05, 50.0  # usual sizes of a rock [m]
 class Rock:
     """A rock on its contacts. Lengths are in metres; z is up, x and y are those of the mesh turned by `up`."""
 
+    name: str  # in the column `object` of its table
     volume: float  # [m3]
     centre: np.ndarray  # of mass, in the coordinates and the unit of the mesh
     inertia: np.ndarray  # of each unit of mass, about the centre of mass [m2]
@@ -102,7 +105,8 @@ class Rock:
 
     def table(self, step: float | None = None, x_azimuth: float | None = None, names: str = "") -> dict:
         """Returns the columns of a table of blocks: a row for each edge of the outline or, with `step` [degree], for each
-        azimuth. x_azimuth: of x on a compass [degree]; gives the column direction. names: before the names of the rows."""
+        azimuth. They are one `object`, which falls if it falls in one of them. x_azimuth: of x on a compass [degree]; gives
+        the column direction. names: before the names of the rows."""
         if step is None:
             azimuth = self.edges()
             name = [f"{names}edge {i + 1}" for i in range(len(azimuth))]
@@ -118,7 +122,7 @@ class Rock:
         across = np.stack([-np.sin(azimuth), np.cos(azimuth), 0 * azimuth], -1)
         spun = across @ self.inertia
         gyration2 = (spun * across).sum(axis=1)
-        columns = {"name": name, "azimuth_from_x": np.degrees(azimuth) % 360}
+        columns = {"object": [self.name] * len(name), "name": name, "azimuth_from_x": np.degrees(azimuth) % 360}
         if x_azimuth is not None:
             columns["direction"] = np.where(compass % 360 < 360, compass % 360, 0)  # of -1e-15, % is 360
         for side, (distance, height) in zip(("plus", "minus"), sides):
@@ -151,9 +155,13 @@ def _cross(a, b):
     return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
-def measure(mesh: str | os.PathLike, contacts: str | os.PathLike, unit: str = "m", up: str = "z", fill: bool = False) -> Rock:
-    """Returns the Rock of a mesh (.obj, .ply, .stl) on the contacts of a table. Raises ToolError for those that have no
-    answer."""
+def measure(mesh: str | os.PathLike, contacts: str | os.PathLike, unit: str = "m", up: str = "z", fill: bool = False,
+            name: str | None = None) -> Rock:
+    """Returns the Rock of a mesh (.obj, .ply, .stl) on the contacts of a table. Its name is that of the mesh, without the
+    extension, if none is given. Raises ToolError for those that have no answer."""
+    name = (pathlib.Path(mesh).stem if name is None else name).strip()
+    if not name:
+        raise ToolError("the name of a rock must not be empty.", USAGE)
     points, faces = read_mesh(mesh)
     supports = read_contacts(contacts)
     origin = (points.min(axis=0) + points.max(axis=0)) / 2
@@ -175,9 +183,9 @@ def measure(mesh: str | os.PathLike, contacts: str | os.PathLike, unit: str = "m
         notes.append(f"the diagonal of the mesh is {UNITS[unit] * diagonal:.4g} m. Is its unit {unit} (--unit)?")
     supports = (supports - origin) @ axes.T - centre
     outline = (points - origin) @ axes.T - centre
-    return Rock(volume=abs(volume), centre=origin + np.linalg.solve(axes, centre), inertia=inertia, contacts=supports,
-                hull=_hull_of(supports), outline=outline[ConvexHull(outline[:, :2]).vertices], faces=len(faces),
-                notes=tuple(notes))
+    return Rock(name=name, volume=abs(volume), centre=origin + np.linalg.solve(axes, centre), inertia=inertia,
+                contacts=supports, hull=_hull_of(supports), outline=outline[ConvexHull(outline[:, :2]).vertices],
+                faces=len(faces), notes=tuple(notes))
 
 
 def mass_properties(corners):
@@ -405,8 +413,9 @@ def _place(point):
 
 def text_of(columns):
     """Returns a table as CSV, with numbers that are read back exactly."""
-    rows = zip(*columns.values())
-    return "".join(",".join(map(str, row)) + "\n" for row in (columns, *rows))
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(map(str, row) for row in (columns, *zip(*columns.values())))
+    return text.getvalue()
 
 
 def towards(azimuth, x_azimuth):
@@ -465,6 +474,7 @@ def read_arguments(argv):
                         "one as in --up=-y")
     parser.add_argument("--x-azimuth", metavar="DEG", type=float, help="azimuth of the axis x on a compass (of y with --up "
                         "x or -x), clockwise from north; adds the column direction")
+    parser.add_argument("--name", help="of the rock, in the column object (default: that of the mesh)")
     parser.add_argument("--density", metavar="RHO", type=positive, help="[kg/m3], to print the mass")
     parser.add_argument("--step", metavar="DEG", type=positive, help="rows at this step of azimuth, not for each edge")
     parser.add_argument("--fill", action="store_true", help="close flat holes")
@@ -483,7 +493,7 @@ def read_arguments(argv):
 
 def main(argv=None):
     arguments = read_arguments(argv)
-    found = measure(arguments.file, arguments.contacts, arguments.unit, arguments.up, arguments.fill)
+    found = measure(arguments.file, arguments.contacts, arguments.unit, arguments.up, arguments.fill, arguments.name)
     for note in found.notes:
         print(f"rock: {note}", file=sys.stderr)
     columns = found.table(arguments.step, arguments.x_azimuth)
@@ -492,7 +502,7 @@ def main(argv=None):
         columns, text = sampled(found, columns, arguments)
         print(text)
     write_text(arguments.output, text_of(columns), "a table of tools/rock",
-               lambda beginning: beginning.startswith(b"name,azimuth_from_x,"))
+               lambda beginning: beginning.startswith(b"object,name,azimuth_from_x,"))
     print(arguments.output)
     if arguments.picture:
         from overturn.plot.rocks import rock as draw

@@ -124,7 +124,9 @@ def fit_text(curve):
 
 def counts_text(curves):
     motions, blocks = max(curve.motions for curve in curves), sum(curve.blocks for curve in curves)
-    what = f"{counted(motions, 'motions')},  {counted(blocks, curves[0].kind)}"
+    kinds = {curve.kind for curve in curves}
+    kind = kinds.pop() if len(kinds) == 1 else curves[0].kind.partition(" in ")[0]
+    what = f"{counted(motions, 'motions')},  {counted(blocks, kind)}"
     if len(curves) > 1:
         return what + f",  {len(curves)} groups"
     how = " together" if curves[0].together else " pooled"

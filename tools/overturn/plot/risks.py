@@ -96,7 +96,8 @@ def draw_fragility(ax, hazard, fragility):
     what = "a block overturns"
     if isinstance(fragility, overturn.Fragility):
         draw_bins(ax, fragility, POINT, "o", "full")
-        what = f"{'one of the blocks' if fragility.together else 'a block'} {fragility.exceedance.verb()}"
+        one, several = ("an object", "objects") if fragility.kind.startswith("objects") else ("a block", "blocks")
+        what = f"{f'one of the {several}' if fragility.together else one} {fragility.exceedance.verb()}"
     ax.set(ylim=(-0.03, 1.03), ylabel="probability")
     ax.set_title(f"fragility: {what}", fontsize=9)
     ax.legend(fontsize=8, loc="upper left")
