@@ -136,7 +136,7 @@ class TestAPicture(Curve):
         self.assertIn("no fit: no point overturns", text)
         self.assertIn("no fit: no point overturns", words)
         self.assertNotIn("lognormal", words)
-        self.assertNotIn("confidence", words)
+        self.assertNotIn("confidence of the curve", words)
 
     def test_of_an_unfinished_file_reports_what_is_not_computed(self):
         shutil.copy(self.folder / "result.h5", self.folder / "part.h5")

@@ -16,7 +16,7 @@ from overturn import lognormal_fit
 from overturn.arguments import OLD_FRICTION, OLD_LIMIT, count, expect_dataset, refuses_old
 from overturn.block_groups import counted
 from overturn.exceedance import OVERTURNING, Exceedance
-from overturn.fragility_points import edges_of, is_measurable, left_out, points_of
+from overturn.fragility_points import edges_of, is_measurable, left_out, points_of, share_interval
 from overturn.friction import expect_coefficient
 from overturn.motion_words import is_of_floor, measure_named, variable_of
 from overturn.output_file import new_file
@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 
 # How a measure grows with the scale of the motion: as scale^power.
 POWERS = {"pga": 1, "pgv": 1, "arias_intensity": 2, "significant_duration": 0}
-_COLUMNS = ("points", "exceeding", "without_verdict", "fraction", "probability", "probability_low", "probability_high")
+_COLUMNS = ("points", "exceeding", "without_verdict", "fraction", "fraction_low", "fraction_high", "probability",
+            "probability_low", "probability_high")
 _NAMES = {"pga": "record_pga"}  # of measures in a data set, before scaling
 VALUES_OF_CURVE = 100
 _SUMMARY = re.compile(r"# .* against \w+ \[.*points with a verdict")
@@ -45,7 +46,7 @@ class Fragility:
     units: str  #: of the intensity measure
     of: str  #: what is counted: "overturning", or a field such as "peak"
     above: float | None  #: the level of the field that is exceeded, in its unit
-    edges: NDArray[np.float64]  #: of the bins, evenly spaced in the logarithm; one more than bins
+    edges: NDArray[np.float64]  #: of the bins; one more than bins
     points: NDArray[np.int64]  #: with a verdict, per bin
     exceeding: NDArray[np.int64]  #: per bin
     without_verdict: NDArray[np.int64]  #: undecided or not computed, per bin; not in `points`
@@ -67,6 +68,8 @@ class Fragility:
     #: (samples, 2), median and beta; their quantiles are the intervals. Empty if there are none
     samples: NDArray[np.float64] = dataclasses.field(default_factory=lambda: np.empty((0, 2)))
     kind: str = "blocks"  #: what `blocks` counts, such as "rows of the table"
+    #: (2, bins), 95 % confidence of `fraction`, with motions as the independent units; NaN: of fewer than two motions
+    fraction_interval: NDArray[np.float64] = dataclasses.field(default_factory=lambda: np.empty((2, 0)))
 
     @property
     def fraction(self) -> NDArray[np.float64]:
@@ -98,7 +101,7 @@ class Fragility:
         fitted = [np.interp(middle, np.log(self.value), curve) if len(middle) else middle
                   for curve in (self.probability, *self.band)]
         table = zip(self.edges[:-1], self.edges[1:], self.points, self.exceeding, self.without_verdict, self.fraction,
-                    *fitted)
+                    *self.fraction_interval, *fitted)
         with new_file(path, "a table of a fragility curve", _is_own) as part, open(
                 part, "w", newline="", encoding="utf-8") as file:
             file.writelines(f"# {line}\n" for line in self.summary().splitlines())
@@ -119,7 +122,8 @@ def _is_own(beginning):
 @refuses_old(OLD_FRICTION | OLD_LIMIT)
 def fragility(dataset: xarray.Dataset, im: str = "pgv", *, of: str = OVERTURNING, above: float | None = None,
               friction_demand: float | None = None,
-              together: str | None = None, bins: int = 10, samples: int = 1000, seed: int = 1) -> Fragility:
+              together: str | None = None, bins: int = 10, equal_counts: bool = False, samples: int = 1000,
+              seed: int = 1) -> Fragility:
     """Returns the fragility curve of a result under records, see open(). All its blocks are pooled and count
     alike: choose some by dataset.isel() or dataset.sel() first.
 
@@ -137,7 +141,8 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", *, of: str = OVERTURNING
         sides of one block, and also exceed together; a measure that depends on the direction is the largest of theirs.
         An axis `direction` is the unknown direction of the motion, the same for all blocks. Points that differ in other
         dimensions are equally likely variants of a block.
-    bins: their number; they do not change the fit.
+    bins, equal_counts: their number, and whether they have equal numbers of points with a verdict instead of equal widths
+        in the logarithm; they do not change the fit. Few different values of the measure give fewer bins.
     samples, seed: of the bootstrap over motions that gives the 95 % confidence.
 
     Rows of a table with the same value in its column `object` are one block, which exceeds if it does in one of its rows:
@@ -153,7 +158,7 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", *, of: str = OVERTURNING
         expect_coefficient(friction_demand)
     measure, im = measure_of(dataset, im), name_of_measure(dataset, im)
     cells, of_blocks, notes = points_of(dataset, {im: measure}, exceedance, friction_demand, together)
-    edges = edges_of(cells, bins)
+    edges = edges_of(cells, bins, equal_counts)
     counts = _counts(cells)
     value = np.geomspace(edges[0], edges[-1], VALUES_OF_CURVE) if len(edges) else np.empty(0)
     verb = exceedance.verb()
@@ -222,7 +227,7 @@ def _histograms(cells, edges):
     kinds = {"points": cells["points"], "exceeding": cells["exceeding"],
              "without_verdict": cells["undecided"] + cells["not_computed"]}
     if not len(edges):
-        return {**{name: np.zeros(0, int) for name in kinds}, "mean": np.zeros(0)}
+        return {**{name: np.zeros(0, int) for name in kinds}, "mean": np.zeros(0), "fraction_interval": np.zeros((2, 0))}
     kept = is_measurable(cells)
     measure = cells["measure"][kept]
 
@@ -235,7 +240,10 @@ def _histograms(cells, edges):
         return np.exp(np.divide(logs, count, out=np.full(len(count), np.nan), where=count > 0))
     sums = {name: total(kind[kept]).astype(int) for name, kind in kinds.items()}
     means = (mean(kinds[name][kept]) for name in ("points", "without_verdict"))
-    return {**sums, "mean": np.where(sums["points"] > 0, *means)}
+    motions, row = np.unique(cells["motion"][kept], return_inverse=True)
+    of_motions = (np.histogram2d(row, measure, [np.arange(len(motions) + 1) - 0.5, edges], weights=kinds[name][kept])[0]
+                  for name in ("points", "exceeding"))
+    return {**sums, "mean": np.where(sums["points"] > 0, *means), "fraction_interval": share_interval(*of_motions)}
 
 
 def _counts(cells):

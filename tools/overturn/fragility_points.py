@@ -3,10 +3,13 @@
 import math
 
 import numpy as np
+from scipy.special import expit
+from scipy.stats import t as student_t
 
 from overturn.block_groups import blocks_at_one_site, objects_of
 from overturn.exceedance import EXCEEDING, NOT_COMPUTED, SAFE, SLIPPING, UNDECIDED
 from overturn.joint_blocks import combined
+from overturn.motion_bootstrap import LEVEL
 
 VERDICTS = {"points": (SAFE, EXCEEDING), "exceeding": (EXCEEDING,), "undecided": (UNDECIDED, SLIPPING),
             "not_computed": (NOT_COMPUTED,), "slipping": (SLIPPING,)}
@@ -77,17 +80,44 @@ def is_measurable(cells):
     return np.isfinite(cells["measure"]) & (cells["measure"] > 0)
 
 
-def edges_of(cells, bins):
-    """Returns the edges of the bins, over the range of the points with a verdict; none without such points."""
-    measure = cells["measure"][is_measurable(cells) & (cells["points"] > 0)]
+def edges_of(cells, bins, equal_counts=False):
+    """Returns the edges of the bins, over the range of the points with a verdict, evenly spaced in the logarithm or with as
+    equal numbers of points as equal values of the measure allow; none without such points."""
+    kept = is_measurable(cells) & (cells["points"] > 0)
+    measure = cells["measure"][kept]
     if not measure.size:
         return np.empty(0)
     low, high = measure.min(), measure.max()
     if low == high:
         return np.array([low / 1.05, high * 1.05])
+    if equal_counts:
+        values, place = np.unique(measure, return_inverse=True)
+        below = np.cumsum(np.bincount(place, cells["points"][kept]))
+        wanted = below[-1] * np.arange(1, bins) / bins
+        cuts = np.unique(abs(below[:-1] - wanted[:, None]).argmin(axis=1))
+        return np.array([low, *np.sqrt(values[cuts] * values[cuts + 1]), high])
     edges = np.geomspace(low, high, bins + 1)
     edges[0], edges[-1] = low, high
     return edges
+
+
+def share_interval(points, exceeding):
+    """Returns the 95 % confidence of the share of the points that exceed, (2, bins). NaN with points of fewer than two motions.
+
+    points, exceeding: with a verdict, of each motion in each bin. Points under one motion are not independent: the variance
+    of the share p = sum y / sum n is sum (y - p n)^2 / (sum n)^2 over the motions, at least that of independent points. The
+    interval is that of Student's t of ln(p / (1 - p)). If none or all of the points exceed, it is that of Clopper and Pearson
+    for as many points as there are motions."""
+    motions, total = (points > 0).sum(axis=0), points.sum(axis=0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = exceeding.sum(axis=0) / total
+        variance = np.maximum(((exceeding - share * points) ** 2).sum(axis=0) / total**2, share * (1 - share) / total)
+        width = student_t.ppf((1 + LEVEL) / 2, motions - 1) * np.sqrt(variance) / (share * (1 - share))
+        low, high = expit(np.log(share / (1 - share)) + np.multiply.outer([-1, 1], width))
+        furthest = ((1 - LEVEL) / 2) ** (1 / motions)
+    low, high = np.where(share == 0, 0, np.where(share == 1, furthest, low)), \
+        np.where(share == 1, 1, np.where(share == 0, 1 - furthest, high))
+    return np.where(motions > 1, [low, high], np.nan)
 
 
 def left_out(cells, im, friction_demand):

@@ -30,6 +30,8 @@ def add_curve_arguments(parser, bins):
                              "have no verdict")
     parser.add_argument("--bins", type=int, metavar="N", default=bins,
                         help="number of bins, which do not change the fit (default: %(default)s)")
+    parser.add_argument("--equal-counts", action="store_true",
+                        help="bins with equal numbers of points, not of equal width in the logarithm")
     parser.add_argument("--samples", type=int, metavar="N", default=1000,
                         help="samples of the bootstrap (default: %(default)s)")
     parser.add_argument("--seed", type=int, metavar="N", default=1, help="of the bootstrap (default: %(default)s)")
@@ -37,7 +39,8 @@ def add_curve_arguments(parser, bins):
 
 def compute_curve(dataset, im, arguments, **further):
     return overturn.fragility(dataset, im, of=arguments.of, above=arguments.above, friction_demand=arguments.friction_demand,
-                              bins=arguments.bins, samples=arguments.samples, seed=arguments.seed, **further)
+                              bins=arguments.bins, equal_counts=arguments.equal_counts, samples=arguments.samples,
+                              seed=arguments.seed, **further)
 
 
 @contextlib.contextmanager

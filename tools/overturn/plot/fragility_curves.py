@@ -84,7 +84,7 @@ def draw_panel(ax, curves):
     for curve, (line, (colour, marker)) in zip(curves, styles):
         fillstyle = "full" if line == "-" else "none"
         if len(curve.edges):
-            draw_bins(ax, curve, POINT if is_alone else colour, marker, fillstyle)
+            draw_bins(ax, curve, POINT if is_alone else colour, marker, fillstyle, is_alone)
         if np.isfinite(curve.median):
             draw_fit(ax, curve, colour, line, len(curves))
         entries.append(Line2D([], [], color=colour, linestyle=line if np.isfinite(curve.median) else "none",
@@ -133,10 +133,13 @@ def counts_text(curves):
     return what + how * (blocks > 1) + (f",  {escaped(curves[0].group)}" if curves[0].group else "")
 
 
-def draw_bins(ax, curve, colour, marker, fillstyle):
-    decided = curve.points > 0
+def draw_bins(ax, curve, colour, marker, fillstyle, has_spread=True):
+    decided, known = curve.points > 0, np.isfinite(curve.fraction_interval).all(axis=0)
+    has_spread = has_spread and bool(known.any())
     ax.plot(curve.mean[decided], curve.fraction[decided], marker, color=colour, fillstyle=fillstyle, zorder=3,
-            label="fraction of the points in a bin")
+            label="fraction of the points in a bin" + ",\nwith 95 % confidence" * has_spread)
+    if has_spread:
+        ax.vlines(curve.mean[known], *curve.fraction_interval[:, known], color=colour, linewidth=1, zorder=3)
     unknown = curve.without_verdict > 0
     if unknown.any():
         total = (curve.points + curve.without_verdict)[unknown]
