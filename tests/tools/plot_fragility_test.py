@@ -47,6 +47,12 @@ class Curve(InOneFolder):
         return text, " ".join("".join(text) for text in texts)
 
 
+    def unfinished(self, name):
+        shutil.copy(self.folder / "result.h5", self.folder / name)
+        with h5py.File(self.folder / name, "a") as file:
+            file["run/checksum"][-1] = 0  # of the tile of the last motion
+
+
 class TestAPicture(Curve):
     def test_has_a_panel_for_each_measure(self):
         text, words = self.words("result.h5", "--im", "pga", "pgv", "--csv", "curve.csv")
@@ -88,6 +94,41 @@ class TestAPicture(Curve):
                     box = words.get_window_extent()
                     self.assertTrue(0 <= box.x0 < box.x1 <= figure.bbox.x1, (count, long, words))
                     self.assertTrue(0 <= box.y0 < box.y1 <= figure.bbox.y1, (count, long, words))
+
+    def test_may_be_the_plane_of_two_measures(self):
+        text, words = self.words("result.h5", "--plane", "--csv", "plane.csv", "--samples", "20", "--bins", "4")
+        self.assertIn("overturning against pga [g] and pgv/pga [m s-1/g]", text)
+        self.assertIn("ln(P / (1 - P)) = a + b ln(pga) + c ln(pgv/pga)", text)
+        for label in ("PGA [g]", "PGV/PGA [m/s/g]", "fit: 50 %", "95 % confidence of 50 %", "fraction that overturns"):
+            self.assertIn(label, words)
+        self.assertNotIn("without a verdict", words)
+        with open(self.folder / "plane.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        self.assertEqual((len(rows), sum(int(row["points"]) for row in rows)), (16, 600))
+        self.unfinished("part.h5")
+        text, words = self.words("part.h5", "--plane", "--im", "pgv", "arias_intensity", "--by", "slenderness",
+                                 "--samples", "20")
+        self.assertIn("\nslenderness = 0.225 rad\n", text)
+        for label in ("PGV [m/s]", "Arias intensity [m/s]", "with points without a verdict", "slenderness = 0.3 rad"):
+            self.assertIn(label, words)
+
+    def test_marks_the_weakest_azimuth(self):
+        (self.folder / "rock.csv").write_text("object,azimuth_from_x,slenderness,size,restitution_of_maximum\n"
+                                              "rock,0,0.2,1,0.9\nrock,90,0.15,1,0.9\nrock,180,0.5,1,0.9\n"
+                                              "rock,270,0.2,1,0.9\n")
+        run_overturn(self.folder, "run", 'scene.record = "*.AT2"\nblocks.table = "rock.csv"\n[plane]\n'
+                     'scale = { first = 0.5, last = 6.0, count = 8, spacing = "log" }\n', "rock.h5")
+        text, words = self.words("rock.h5", "--polar", "azimuth_from_x", "--im", "pga", "--samples", "20")
+        medians = re.findall(r"azimuth_from_x = ([0-9]+) degree\nmedian ([0-9.]+)", text)
+        self.assertEqual(min(medians, key=lambda each: float(each[1]))[0], "90")
+        self.assertRegex(words, r"median PGA \[g\],  least [0-9.]+ at 90° from x")
+        self.assertIn("weakest azimuth", words)
+        # Together they are one object, weaker than each of its rows.
+        text, words = self.words("rock.h5", "--im", "pga", "--samples", "20")
+        self.assertIn("1 object in 4 rows;", text)
+        self.assertIn("10 motions,  1 object in 4 rows", words)
+        least = min(float(each[1]) for each in medians)
+        self.assertLessEqual(float(re.search(r"median ([0-9.]+)", text)[1]), 1.05 * least)
 
     def test_replaces_its_own_table_and_no_other(self):
         self.output_of("result.h5", "--im", "pga", "--csv", "own.csv", "-o", "picture.png")
@@ -139,9 +180,7 @@ class TestAPicture(Curve):
         self.assertNotIn("confidence of the curve", words)
 
     def test_of_an_unfinished_file_reports_what_is_not_computed(self):
-        shutil.copy(self.folder / "result.h5", self.folder / "part.h5")
-        with h5py.File(self.folder / "part.h5", "a") as file:
-            file["run/checksum"][-1] = 0  # of the tile of the last motion
+        self.unfinished("part.h5")
         text, words = self.words("part.h5")
         self.assertIn("of 540 points with a verdict, 9 motions, 12 blocks pooled; 0 undecided, 60 not computed", text)
         self.assertIn("the result is unfinished: 60 of 600 points are not computed", text)
@@ -165,10 +204,14 @@ class TestACurveRefused(Curve):
         self.refuses(2, "'mass' is not an intensity measure", "result.h5", "--im", "mass")
         self.refuses(2, "'motion' is not an intensity measure", "result.h5", "--im", "motion")
         self.refuses(2, "'pgv' is not a property of the blocks", "result.h5", "--by", "pgv")
+        self.refuses(2, "'mass' is not a property of the blocks", "result.h5", "--polar", "mass")
+        self.refuses(2, "--plane needs two measures", "result.h5", "--plane", "--im", "pga")
+        self.refuses(2, "draw it without --plane and --by", "result.h5", "--plane", "--polar")
+        self.refuses(2, "--polar needs one measure", "result.h5", "--polar", "--im", "pga", "pgv")
         self.overturn("run", "region.h5", 'output.fields=["region"]')
         self.refuses(2, "has no field peak", "region.h5", "--of", "peak", "--above", "1")
-        self.refuses(2, "no field slide_peak of numbers to be above 0.1. Add it to output.fields. Those that it has: peak.",
-                     "result.h5", "--of", "slide_peak", "--above", "0.1")
+        self.refuses(2, "no field slide_peak of numbers to be above 0.1. Add it to output.fields. Those that it has: "
+                     "peak.", "result.h5", "--of", "slide_peak", "--above", "0.1")
         self.refuses(2, "--limit is called --of peak --above now", "result.h5", "--limit", "0.3")
         self.refuses(2, "has no field friction_demand", "region.h5", "--friction-demand", "0.5")
         self.refuses(2, "friction_demand = 35.0 is not a number above 0", "region.h5", "--friction-demand", "35")

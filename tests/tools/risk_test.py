@@ -364,6 +364,28 @@ class TwoMeasures(unittest.TestCase):
         np.testing.assert_allclose(found.contribution[0, 2], 2 / 3 * (rate[0] - rate[1]), rtol=1e-12)
 
 
+    def test_of_a_plane_are_those_of_its_fit(self):
+        region, scale = population()
+        ratio = np.exp(0.3 * np.random.default_rng(3).standard_normal(30))
+        y = np.geomspace(ratio.min(), ratio.max(), 41)
+        plane = overturn.fragility_plane(result(region, scale, ratio), samples=20)
+        x = np.geomspace(0.1, 9, 7)
+        found = risk.marginal(plane, self.uniform(ratio))
+        of_function = risk.marginal(plane.probability, self.uniform(ratio), y, **PGA)
+        np.testing.assert_allclose(found.at(x)[0], of_function.at(x)[0], rtol=1e-9)
+        self.assertEqual((found.im, found.units, found.at(x).shape, found.data), ("pga", "g", (21, 2, 7), (0.2, 4.0)))
+        region[:, 3, :8] = UNDECIDED  # a fifth of the points at one scale
+        few = overturn.fragility_plane(result(region, scale, ratio), bins=(8, 1), samples=20)
+        low, high = risk.marginal(few, self.uniform(ratio)).at(np.array([0.1, 1.01 * scale[3], 3.0, 9.0]))[0]
+        np.testing.assert_allclose(high - low, [0, 0.2, 0, 0], atol=1e-12)
+        with self.assertRaisesRegex(ValueError, "this plane has no fit"):
+            risk.marginal(overturn.fragility_plane(result(region, scale)), self.uniform(ratio))
+
+    def uniform(self, ratio):
+        """The density of a ratio that is uniform in the logarithm between the extremes."""
+        first, last = ratio.min(), ratio.max()
+        return lambda y, x: np.where((first <= y) & (y <= last), 1 / (y * np.log(last / first)), 0) + 0 * x
+
     def test_of_a_result_count_an_object_once(self):
         region, scale = population()
         several = result(region[..., [0, 1, 2, 0, 1, 2]], scale).assign_coords(object=("block", [1, 2, 2, 3, 4, 4]))
@@ -371,7 +393,8 @@ class TwoMeasures(unittest.TestCase):
         blocks = result(np.concatenate([region[..., [0]], either] * 2, axis=2), scale)
 
         def at(data):
-            return risk.binned_marginal(data, "pga", "pgv", self.density, bins=(5, 5), samples=20).at(np.geomspace(0.2, 4, 9))
+            found = risk.binned_marginal(data, "pga", "pgv", self.density, bins=(5, 5), samples=20)
+            return found.at(np.geomspace(0.2, 4, 9))
         np.testing.assert_array_equal(at(several), at(blocks))
 
 

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from overturn.fragility_curve import Fragility as Fragility
     from overturn.fragility_curve import fragility as fragility
     from overturn.friction import supported_share as supported_share
+    from overturn.plane_of_measures import FragilityPlane as FragilityPlane
+    from overturn.plane_of_measures import fragility_plane as fragility_plane
     from overturn.program import ProgramError as ProgramError
     from overturn.program import assess as assess
     from overturn.program import check as check
@@ -34,8 +36,9 @@ if TYPE_CHECKING:
 
 _NAMES = {"evaluation": ("evaluate", "Outcome", "Verdict"), "datasets": ("open",),
           "program": ("run", "check", "topple", "assess", "ProgramError"), "fragility_curve": ("fragility", "Fragility"),
-          "friction": ("supported_share",), "floors": ("floor_motion", "FloorMotion"),
-          "records": ("read_record", "Record", "RecordError"), "tool": ("ToolError",)}
+          "plane_of_measures": ("fragility_plane", "FragilityPlane"), "friction": ("supported_share",),
+          "floors": ("floor_motion", "FloorMotion"), "records": ("read_record", "Record", "RecordError"),
+          "tool": ("ToolError",)}
 _MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
 _MODULES = ("plot", "risk", "rock")
 __all__ = [*_MODULE_OF, *_MODULES]

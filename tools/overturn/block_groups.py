@@ -1,5 +1,5 @@
-"""Groups of the blocks of a result, by the values of a column of its table or of an axis; and the rows of a table that are
-one object."""
+"""Groups of the blocks of a result, by the values of a column of its table or of an axis; and the rows of a table that
+are one object."""
 
 import dataclasses
 
@@ -13,9 +13,9 @@ NOT_GIVEN = "not given"  # an empty number
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Objects:
-    """The rows of a table that are one thing, such as a rock in several azimuths: they have the same value of the column
-    `object` (and of `sample`, which distinguishes equally likely variants of an object), and, if each row has a motion of
-    its own, the same motion."""
+    """The rows of a table that are one thing, such as a rock in several azimuths: they have the same value of the
+    column `object` (and of `sample`, which distinguishes equally likely variants of an object), and, if each row has a
+    motion of its own, the same motion."""
 
     dimension: str
     names: np.ndarray  # number of the object of each row
@@ -36,12 +36,12 @@ class Objects:
     def counted(self):
         """Returns the number of objects, and of what."""
         number, rows = len(np.unique(self.names)), len(self.names)
-        return number, f"objects in {rows} rows" + f" of {self.samples} samples" * (self.samples > number)
+        return number, f"objects in {counted(rows, 'rows')}" + f" of {self.samples} samples" * (self.samples > number)
 
 
 def objects_of(dataset):
-    """Returns the Objects of a data set of overturn.open(), or None if its table has no column `object`. Raises ValueError
-    if a row has no object or no sample."""
+    """Returns the Objects of a data set of overturn.open(), or None if its table has no column `object`. Raises
+    ValueError if a row has no object or no sample."""
     if "object" not in dataset or not _is_of_blocks(dataset, "object"):
         return None
     dimension, = dataset["object"].dims
@@ -49,26 +49,29 @@ def objects_of(dataset):
     for name in ("object", "sample", "motion", "motion_name", "scale"):
         if name in dataset and dataset[name].dims == (dimension,):
             values = dataset[name].values
-            empty = np.isnan(values) if values.dtype.kind == "f" else np.array([not str(each).strip() for each in values])
-            if empty.any() and name in ("object", "sample"):
-                raise ValueError(f"row {empty.argmax() + 1} of the table has no {name}. Give every row the {name} to which "
-                                 "it belongs.")
+            empty = [not str(each).strip() or each != each for each in values.tolist()]
+            if any(empty) and name in ("object", "sample"):
+                raise ValueError(f"row {empty.index(True) + 1} of the table has no {name}. Give every row the {name} "
+                                 "to which it belongs.")
             numbers[name] = np.unique(values, return_inverse=True)[1]
 
     def combined(*names):
-        return np.unique(np.stack([numbers[name] for name in names if name in numbers]), axis=1, return_inverse=True)[1].ravel()
+        chosen = np.stack([numbers[name] for name in names if name in numbers])
+        return np.unique(chosen, axis=1, return_inverse=True)[1].ravel()
     return Objects(dimension, numbers["object"], len(np.unique(combined("object", "sample"))), combined(*numbers))
 
 
 def groups_of(dataset, column):
     """Returns the parts of a data set of overturn.open(), by a text such as "kind = urn" or "size = 0.5 m". There is a
-    group for each value; if there are more than MOST_NUMBERS numbers, a group for each quarter of the blocks or objects.
+    group for each value; if there are more than MOST_NUMBERS numbers, a group for each quarter of the blocks or
+    objects.
 
     Raises ValueError if the column does not distinguish the blocks, or has too many different texts."""
     from overturn.captions import UNITS  # needs h5py
     values, dimension = _property(dataset, column)
     objects = objects_of(dataset)
-    labels = _labels(column, values, objects.names if objects and objects.dimension == dimension else np.arange(len(values)))
+    is_of_rows = objects and objects.dimension == dimension
+    labels = _labels(column, values, objects.names if is_of_rows else np.arange(len(values)))
     units = dataset[column].attrs.get("units", "1")
     unit = UNITS.get(units, units)
     name = column.replace("_", " ")
@@ -81,8 +84,8 @@ def groups_of(dataset, column):
 def blocks_at_one_site(dataset, column):
     """Returns the number of blocks at one site, which are those with different values of a column; the parts of a data
     set of overturn.open() that stand or overturn together; and the dimension along which they are. There is a part for
-    each block or, if the table has a column `direction` but no `object`, for each of its directions: such rows are sides
-    of one block.
+    each block or, if the table has a column `direction` but no `object`, for each of its directions: such rows are
+    sides of one block.
 
     Raises ValueError if the column does not distinguish the blocks, differs within an object, has an empty value, or if
     the blocks have motions of their own."""
@@ -101,8 +104,8 @@ def blocks_at_one_site(dataset, column):
     objects = objects_of(dataset)
     if objects and objects.dimension == dimension:
         if sum(len(np.unique(objects.names[part])) for part in parts) > len(np.unique(objects.names)):
-            raise ValueError(f"{column} differs within an object, whose rows fall together anyway. Choose \"object\", or "
-                             "another column that is the same in all rows of an object.")
+            raise ValueError(f"{column} differs within an object, whose rows fall together anyway. Choose \"object\", "
+                             "or another column that is the same in all rows of an object.")
     elif "direction" in dataset and dataset["direction"].dims == (dimension,):
         directions = dataset["direction"].values
         parts = [part[directions[part] == each] for part in parts for each in np.unique(directions[part])]
@@ -116,6 +119,18 @@ def each_block(dataset, column):
     kinds = np.unique(values)
     texts = texts_of(kinds, 4) if kinds.dtype.kind in "fiu" else [str(kind) for kind in kinds]
     return {text: dataset.isel({dimension: np.flatnonzero(values == kind)}) for text, kind in zip(texts, kinds)}
+
+
+def azimuths_of(dataset, column):
+    """Returns the parts of a data set of overturn.open() at each azimuth, by a text such as "direction = 30 degree";
+    and the azimuths. Raises ValueError if the column has texts or empty values."""
+    values, dimension = _property(dataset, column)
+    if values.dtype.kind not in "fiu" or not np.isfinite(values).all():
+        raise ValueError(f"{column} has values that are no azimuths in degrees. Choose another column, such as "
+                         "direction.")
+    azimuths = np.unique(values)
+    return azimuths, {f"{column} = {text} degree": dataset.isel({dimension: np.flatnonzero(values == azimuth)})
+                      for azimuth, text in zip(azimuths, texts_of(azimuths, 6))}
 
 
 def counted(number, kind):

@@ -12,7 +12,8 @@ from overturn.choice import OPTIONS, add_choice_arguments, chosen
 from overturn.motion_words import VARIABLES, column_named
 from overturn.output_file import BEGINNING, new_file
 from overturn.result_file import HISTORY, SPECTRUM, STUDY, damage_reported, open_result
-from overturn.result_curves import add_curve_arguments, add_group_argument, curves_of, open_dataset, write_csv
+from overturn.result_curves import (add_curve_arguments, add_group_argument, compute_curve, curves_of, open_dataset,
+                                    write_csv)
 from overturn.spectrum_planes import COUNTED, JOB, PHYSICAL
 from overturn.tool import USAGE, ToolError, parse_with_output, parser_of
 from overturn.units import expect_size, is_own_column, physical, unit_of
@@ -218,7 +219,8 @@ def read_arguments(argv):
 def write_curves(arguments):
     import scipy  # noqa: F401 (for overturn.fragility: if it is missing, fail before anything is read)
     with open_dataset(arguments.file) as dataset:
-        by_measure = [curves_of(dataset, im, arguments) for im in arguments.fragility]
+        by_measure = [curves_of(dataset, arguments, lambda blocks: compute_curve(blocks, im, arguments))
+                      for im in arguments.fragility]
     for curves in by_measure:
         for number, curve in enumerate(curves, 1):
             write_csv(curve, number, arguments.output, len(by_measure) > 1)

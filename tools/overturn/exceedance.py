@@ -10,8 +10,8 @@ from overturn.friction import codes_of, decided_points, slipping_points
 OVERTURNING = "overturning"
 NO_MEASURES = ("region", "status", "evaluated")  # fields of codes and flags
 
-# Of a point, from safe to exceeding. Of several points, one of which exceeds if any does, the largest is the verdict: it
-# is none if none is known to exceed and one has none.
+# Of a point, from safe to exceeding. Of several points, one of which exceeds if any does, the largest is the verdict:
+# it is none if none is known to exceed and one has none.
 SAFE, UNDECIDED, SLIPPING, NOT_COMPUTED, EXCEEDING = range(5)
 
 
@@ -25,16 +25,19 @@ class Exceedance:
     def __post_init__(self):
         if self.of == OVERTURNING:
             if self.above is not None:
-                raise ValueError(f"above = {self.above} is the level of a field. Give the field, such as of = \"peak\".")
+                raise ValueError(f"above = {self.above} is the level of a field. Give the field, such as of = "
+                                 "\"peak\".")
             return
         if not isinstance(self.of, str):
-            raise ValueError(f"of = {self.of!r} is not the name of a field. Give \"{OVERTURNING}\", or \"peak\" and above.")
+            raise ValueError(f"of = {self.of!r} is not the name of a field. Give \"{OVERTURNING}\", or \"peak\" and "
+                             "above.")
         if self.above is None:
-            raise ValueError(f"of = \"{self.of}\" needs above, the level of this field that is exceeded, such as above = 0.4.")
+            raise ValueError(f"of = \"{self.of}\" needs above, the level of this field that is exceeded, such as "
+                             "above = 0.4.")
         above = number("above", self.above)
         if self.of == "peak" and not 0 < above <= 1:
-            raise ValueError(f"above = {self.above} must be in (0, 1]: the peak |theta| / alpha that counts as exceeding, not "
-                             "an angle or a percentage.")
+            raise ValueError(f"above = {self.above} must be in (0, 1]: the peak |theta| / alpha that counts as "
+                             "exceeding, not an angle or a percentage.")
         if not np.isfinite(above):
             raise ValueError(f"above = {self.above} is not a finite number.")
 

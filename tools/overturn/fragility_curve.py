@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import csv
 import dataclasses
 import os
-import re
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,12 +12,11 @@ from scipy.special import ndtr
 
 from overturn import lognormal_fit
 from overturn.arguments import OLD_FRICTION, OLD_LIMIT, count, expect_dataset, refuses_old
-from overturn.block_groups import counted
 from overturn.exceedance import OVERTURNING, Exceedance
 from overturn.fragility_points import edges_of, is_measurable, left_out, points_of, share_interval
+from overturn.fragility_table import Binned, numbers_text
 from overturn.friction import expect_coefficient
 from overturn.motion_words import is_of_floor, measure_named, variable_of
-from overturn.output_file import new_file
 
 if TYPE_CHECKING:
     import xarray
@@ -27,17 +24,12 @@ if TYPE_CHECKING:
 
 # How a measure grows with the scale of the motion: as scale^power.
 POWERS = {"pga": 1, "pgv": 1, "arias_intensity": 2, "significant_duration": 0}
-_COLUMNS = ("points", "exceeding", "without_verdict", "fraction", "fraction_low", "fraction_high", "probability",
-            "probability_low", "probability_high")
 _NAMES = {"pga": "record_pga"}  # of measures in a data set, before scaling
 VALUES_OF_CURVE = 100
-_SUMMARY = re.compile(r"# .* against \w+ \[.*points with a verdict")
-_HEADER = re.compile(r"(\w+)_from,\1_to," + ",".join(_COLUMNS))
-_ROW = re.compile(f"[-+.0-9einfa]*(,[-+.0-9einfa]*){{{len(_COLUMNS) + 1}}}")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Fragility:
+class Fragility(Binned):
     """Points per bin of the intensity measure, and the lognormal curve fitted to the single points. A
     point is one block, or one object of the table, under one motion at one scale. It exceeds if it overturns, or
     if the field `of` is above a level. NaN: there is no such number, see `notes`."""
@@ -71,27 +63,12 @@ class Fragility:
     #: (2, bins), 95 % confidence of `fraction`, with motions as the independent units; NaN: of fewer than two motions
     fraction_interval: NDArray[np.float64] = dataclasses.field(default_factory=lambda: np.empty((2, 0)))
 
-    @property
-    def fraction(self) -> NDArray[np.float64]:
-        """Exceeding points / points with a verdict per bin; NaN in a bin without any."""
-        return np.divide(self.exceeding, self.points, out=np.full(len(self.points), np.nan), where=self.points > 0)
-
-    @property
-    def exceedance(self) -> Exceedance:
-        return Exceedance(self.of, self.above)
-
     def summary(self) -> str:
         """Returns the numbers as a text of several lines."""
-        blocks = counted(self.blocks, self.kind)
-        if self.blocks > 1 or self.kind.endswith("directions"):
-            blocks += " together" if self.together else " pooled"
-        lines = [f"{self.exceedance.noun()} against {self.im} [{self.units}]: {self.exceeding.sum()} of "
-                 f"{self.points.sum()} points with a verdict, {self.motions} motions, {blocks}; {self.undecided} undecided, {self.not_computed} not "
-                 "computed", *[self.group] * bool(self.group)]
+        lines = [self.counts_text(f"{self.im} [{self.units}]"), *[self.group] * bool(self.group)]
         if np.isfinite(self.median):
-            lines += [f"{name} {number:.4g}" + (f" ({low:.4g} to {high:.4g})" if np.isfinite(low) else "")
-                      for name, number, (low, high) in (("median", self.median, self.median_interval),
-                                                        ("beta", self.beta, self.beta_interval))]
+            lines += numbers_text(("median", "beta"), (self.median, self.beta),
+                                  (self.median_interval, self.beta_interval))
         return "\n".join([*lines, *self.notes])
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
@@ -100,23 +77,7 @@ class Fragility:
         middle = np.log(self.edges[:-1] * self.edges[1:]) / 2
         fitted = [np.interp(middle, np.log(self.value), curve) if len(middle) else middle
                   for curve in (self.probability, *self.band)]
-        table = zip(self.edges[:-1], self.edges[1:], self.points, self.exceeding, self.without_verdict, self.fraction,
-                    *self.fraction_interval, *fitted)
-        with new_file(path, "a table of a fragility curve", _is_own) as part, open(
-                part, "w", newline="", encoding="utf-8") as file:
-            file.writelines(f"# {line}\n" for line in self.summary().splitlines())
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow([f"{self.im}_from", f"{self.im}_to", *_COLUMNS])
-            writer.writerows([*(f"{number:.6g}" for number in row[:2]), *row[2:5],
-                              *("" if np.isnan(number) else f"{number:.6g}" for number in row[5:])] for row in table)
-
-
-def _is_own(beginning):
-    """Whether a file is what Fragility.to_csv() writes: a summary, the names of the columns, and rows of numbers."""
-    lines = beginning.decode(errors="replace").split("\n")
-    rows = [line for line in lines[:-1] if not line.startswith("#")]
-    return (_SUMMARY.match(lines[0]) is not None and bool(rows) and _HEADER.fullmatch(rows[0]) is not None
-            and all(_ROW.fullmatch(row) for row in rows[1:]))
+        self.write_table(path, {self.im: (self.edges[:-1], self.edges[1:])}, fitted[0], fitted[1:])
 
 
 @refuses_old(OLD_FRICTION | OLD_LIMIT)
@@ -131,23 +92,23 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", *, of: str = OVERTURNING
         numbers over the dimension motion, which is taken to be proportional to the motion. The measures of
         the records are scaled like the motions. Under motions of a floor, these are measures of the floor, and the
         curve names them "pfa", "pfv", ...; "ground_pga" is the PGA of the ground that caused them.
-    of, above: what is counted: points that overturn or, for the name of a field of the result, those whose value is above
-        a level in the unit of the field, such as of="peak", above=0.4. Points whose value is NaN have no verdict.
+    of, above: what is counted: points that overturn or, for the name of a field of the result, those whose value is
+        above a level in the unit of the field, such as of="peak", above=0.4. Points whose value is NaN have no verdict.
     friction_demand: coefficient between block and ground, up to 2; points that need more, see the field friction_demand, have no
         verdict.
     together: column or axis that distinguishes the blocks of one site, such as "object" or "block". A point is then one
         block of each of its values, under one motion in one direction, and exceeds if one of them does: survival is
-        multiplied within each motion. Without a column `object`, rows of a table that differ in a column `direction` are
-        sides of one block, and also exceed together; a measure that depends on the direction is the largest of theirs.
-        An axis `direction` is the unknown direction of the motion, the same for all blocks. Points that differ in other
-        dimensions are equally likely variants of a block.
-    bins, equal_counts: their number, and whether they have equal numbers of points with a verdict instead of equal widths
-        in the logarithm; they do not change the fit. Few different values of the measure give fewer bins.
+        multiplied within each motion. Without a column `object`, rows of a table that differ in a column `direction`
+        are sides of one block, and also exceed together; a measure that depends on the direction is the largest of
+        theirs. An axis `direction` is the unknown direction of the motion, the same for all blocks. Points that differ
+        in other dimensions are equally likely variants of a block.
+    bins, equal_counts: their number, and whether they have equal numbers of points with a verdict instead of equal
+        widths in the logarithm; they do not change the fit. Few different values of the measure give fewer bins.
     samples, seed: of the bootstrap over motions that gives the 95 % confidence.
 
-    Rows of a table with the same value in its column `object` are one block, which exceeds if it does in one of its rows:
-    a rock in several azimuths. If there is a column `sample`, rows of equal `object` and `sample` are one of the equally
-    likely variants of an object. A measure that depends on the direction is the largest of those of its rows.
+    Rows of a table with the same value in its column `object` are one block, which exceeds if it does in one of its
+    rows: a rock in several azimuths. If there is a column `sample`, rows of equal `object` and `sample` are one of the
+    equally likely variants of an object. A measure that depends on the direction is the largest of those of its rows.
 
     Points without a verdict are left out and counted; they are never safe. Raises ValueError if the
     dataset lacks what is needed.
@@ -169,8 +130,9 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", *, of: str = OVERTURNING
     return Fragility(im, units_of(measure, im), of, above, edges, **_histograms(cells, edges),
                      undecided=int(cells["undecided"].sum()), not_computed=int(cells["not_computed"].sum()),
                      motions=counts.points.shape[0], together=together or "", **of_blocks, **_fitted(fit, value),
-                     notes=(*notes, *left_out(cells, im, friction_demand), *_without_slipping(fit, cells), *[reason] * bool(reason),
-                            *_extrapolated(fit, edges, im), *_without_band(fit, counts, samples)))
+                     notes=(*notes, *left_out(cells, im, friction_demand), *_without_slipping(fit, cells),
+                            *[reason] * bool(reason), *_extrapolated(fit, edges, im),
+                            *no_interval(fit, counts.points.shape[0], samples)))
 
 
 def expect_records(dataset):
@@ -227,7 +189,7 @@ def _histograms(cells, edges):
     kinds = {"points": cells["points"], "exceeding": cells["exceeding"],
              "without_verdict": cells["undecided"] + cells["not_computed"]}
     if not len(edges):
-        return {**{name: np.zeros(0, int) for name in kinds}, "mean": np.zeros(0), "fraction_interval": np.zeros((2, 0))}
+        return {**dict.fromkeys(kinds, np.zeros(0, int)), "mean": np.zeros(0), "fraction_interval": np.zeros((2, 0))}
     kept = is_measurable(cells)
     measure = cells["measure"][kept]
 
@@ -293,12 +255,11 @@ def _extrapolated(fit, edges, im):
     return [f"extrapolated: the median is outside the data, which are from {im} = {edges[0]:.4g} to {edges[-1]:.4g}"]
 
 
-def _without_band(fit, counts, samples):
-    """Returns a note if a fit has no band."""
-    motions = counts.points.shape[0]
+def no_interval(fit, motions, samples):
+    """Returns a note if a fit has no confidence."""
     if fit and motions < lognormal_fit.LEAST_MOTIONS:
         return [f"no confidence band: it needs {lognormal_fit.LEAST_MOTIONS} motions or more, not {motions}"]
-    if fit and np.isnan(fit.beta_interval[0]):
+    if fit and not len(fit.samples):
         return [f"no confidence band: {fit.samples_without_fit} of {samples} samples of the motions have no fit"]
     return []
 

@@ -17,16 +17,19 @@ VERDICTS = {"points": (SAFE, EXCEEDING), "exceeding": (EXCEEDING,), "undecided":
 
 def points_of(dataset, measures, exceedance, friction_demand, together=None):
     """Returns arrays with an entry per motion and value of the measures (and per direction of the motion, for blocks
-    together): the motion, the measures (a list), the first of them as "measure", and the numbers of points of each kind;
-    which blocks these are, as fields of a Fragility; and notes.
+    together): the motion, the measures (a list), the first of them as "measure", and the numbers of points of each
+    kind; which blocks these are, as fields of a Fragility; and notes.
 
     measures: of every motion at every scale, by name."""
     objects, blocks = objects_of(dataset), _blocks(dataset)
-    parts, dimension, whose = [dataset], objects.dimension if objects else None, "rows of an object"
+    has_several_rows = objects and len(np.unique(objects.of_row)) < len(objects.of_row)
+    parts, dimension, whose = [dataset], objects.dimension if has_several_rows else None, "rows of an object"
     if together is not None:
         number, parts, dimension = blocks_at_one_site(dataset, together)
-        blocks, whose = (blocks if together == "object" else {"blocks": number}), "blocks"
-    vary = [name for name, each in measures.items() if dimension in each.dims and dimension not in dataset["motion"].dims]
+        blocks = blocks if together == "object" else {"blocks": number, "kind": "blocks"}
+        whose = "blocks"
+    vary = [name for name, each in measures.items()
+            if dimension in each.dims and dimension not in dataset["motion"].dims]
     values = [each.max(dimension, keep_attrs=True) if together is not None and name in vary else each
               for name, each in measures.items()]
     cells = combined([cells_of(part, values, exceedance, friction_demand, together is not None) for part in parts])
@@ -48,7 +51,7 @@ def _blocks(dataset):
 
 
 def cells_of(dataset, measures, exceedance, friction_demand, by_direction=False):
-    """Returns arrays with an entry per motion and value of the measures, and per direction if requested, see points_of()."""
+    """Returns the arrays of points_of(), with an entry per direction of the motion if requested."""
     verdict, motion = exceedance.verdicts(dataset, friction_demand), _numbered(dataset)
     if objects := objects_of(dataset):
         verdict, motion, *measures = map(objects.largest, (verdict, motion, *measures))
@@ -81,8 +84,8 @@ def is_measurable(cells):
 
 
 def edges_of(cells, bins, equal_counts=False):
-    """Returns the edges of the bins, over the range of the points with a verdict, evenly spaced in the logarithm or with as
-    equal numbers of points as equal values of the measure allow; none without such points."""
+    """Returns the edges of the bins, over the range of the points with a verdict, evenly spaced in the logarithm or
+    with as equal numbers of points as equal values of the measure allow; none without such points."""
     kept = is_measurable(cells) & (cells["points"] > 0)
     measure = cells["measure"][kept]
     if not measure.size:
@@ -102,12 +105,14 @@ def edges_of(cells, bins, equal_counts=False):
 
 
 def share_interval(points, exceeding):
-    """Returns the 95 % confidence of the share of the points that exceed, (2, bins). NaN with points of fewer than two motions.
+    """Returns the 95 % confidence of the share of the points that exceed, (2, bins); NaN with fewer than two motions.
 
-    points, exceeding: with a verdict, of each motion in each bin. Points under one motion are not independent: the variance
-    of the share p = sum y / sum n is sum (y - p n)^2 / (sum n)^2 over the motions, at least that of independent points. The
-    interval is that of Student's t of ln(p / (1 - p)). If none or all of the points exceed, it is that of Clopper and Pearson
-    for as many points as there are motions."""
+    points, exceeding: with a verdict, of each motion in each bin (motions, bins).
+
+    Points under one motion are not independent: the variance of the share p = sum y / sum n is sum (y - p n)^2 /
+    (sum n)^2 over the motions, or that of independent points if this is larger. The interval is that of Student's t of
+    ln(p / (1 - p)). If none or all of the points exceed, it is that of Clopper and Pearson for as many points as there
+    are motions."""
     motions, total = (points > 0).sum(axis=0), points.sum(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
         share = exceeding.sum(axis=0) / total

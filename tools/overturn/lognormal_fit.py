@@ -2,8 +2,8 @@
 
     P(x) = Phi(ln(x / median) / beta) = Phi(a + b s),   s = (ln x - center) / width
 
-see motion_bootstrap. The band consists of quantiles of the curves of all samples; each of them rises with x, and so does
-the band. Intervals of a + b s would not: with few motions, they include curves that fall."""
+see motion_bootstrap. The band consists of quantiles of the curves of all samples; each of them rises with x, and so
+does the band. Intervals of a + b s would not: with few motions, they include curves that fall."""
 
 import dataclasses
 import math

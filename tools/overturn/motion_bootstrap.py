@@ -5,7 +5,7 @@
 with n points at (v, w), of which y exceed; F is the normal or the logistic distribution, w may be missing. (J. Baker,
 Earthquake Spectra 31 (2015) 579-599.) Points under one motion are not independent. Motions are therefore drawn with
 replacement; intervals are those of the studentized bootstrap (A. Davison, D. Hinkley, Bootstrap methods (1997), section
-5.2), with the sandwich estimate of the covariance of a, b and c, whose scores are summed by motion. They are computed for
+5.2), with the sandwich estimate of the covariance of a, b and c, whose scores are summed by motion. They are those of
 
     v at P = 1/2 and w = 0, m = -a/b;   the logarithm of the scatter, -ln b;   the slope of v at P = 1/2, g = -c/b
 
@@ -17,7 +17,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from scipy.special import expit, ndtr
+from scipy.special import ndtr
 
 LEVEL = 0.95  # of the intervals
 ENDS = [(1 - LEVEL) / 2, (1 + LEVEL) / 2]  # quantiles
@@ -37,8 +37,9 @@ def _normal(z):
 
 
 def _logistic(z):
-    p = expit(z)
-    return p, np.ones_like(z), p * expit(-z)
+    odds = np.exp(-z)
+    p = 1 / (1 + odds)
+    return p, np.ones_like(p), odds * p * p
 
 
 @dataclasses.dataclass(frozen=True)
@@ -72,13 +73,13 @@ def fit(points, exceeding, design, link, samples, seed, has_maximum=None):
     order of 1. has_maximum: of the sums over motions (samples, values), where it is known in advance."""
     counts = _Counts(points, exceeding, np.asarray(design, float), link, has_maximum)
     motions, values = points.shape
-    estimate, error = (rows[0] for rows in counts.estimates(np.ones((1, motions))))
+    estimate, error, abc = (rows[0] for rows in counts.estimates(np.ones((1, motions))))
     if not (abs(estimate) <= LARGEST_LOG).all():  # NaN, or P that hardly rises
         return None
     without_fit, interval, kept = 0, np.full((2, len(estimate)), np.nan), np.empty((0, len(estimate)))
     if motions >= LEAST_MOTIONS:
         weights = np.array_split(drawn(motions, samples, seed), -(-samples * values // CHUNK))
-        estimates, errors = map(np.concatenate, zip(*map(counts.estimates, weights)))
+        estimates, errors, _ = map(np.concatenate, zip(*(counts.estimates(each, abc) for each in weights)))
         deviation = (estimates - estimate) / errors
         without_fit = int(np.isnan(deviation).any(axis=1).sum())
         if without_fit <= MOST_WITHOUT_FIT * samples:
@@ -96,28 +97,31 @@ class _Counts:
     link: Link
     has_maximum: Callable | None
 
-    def estimates(self, weights):
-        """Returns the values of Fitted of each sample and their standard errors; weights (samples, motions) are how often
-        a motion was drawn. NaN in samples without a fit."""
+    def estimates(self, weights, start=None):
+        """Returns the values of Fitted of each sample, their standard errors, and a, b and c; NaN in samples without a
+        fit. weights (samples, motions): how often a motion was drawn. start: a, b and c to begin with."""
         points, exceeding = weights @ self.points, weights @ self.exceeding
         fitted = self.has_maximum(points, exceeding) if self.has_maximum else np.ones(len(weights), bool)
         size = self.design.shape[1]
         abc = np.full((len(weights), size), np.nan)
-        abc[fitted] = self.maximum(points[fitted], exceeding[fitted])
+        abc[fitted] = self.maximum(points[fitted], exceeding[fitted], start)
         b = np.where(abc[:, 1] > 0, abc[:, 1], np.nan)[:, None]
         values = -abc / b
         slopes = np.eye(size) * -1 / b[:, :, None]  # of each value along a, b and c
         slopes[:, :, 1] = abc / b**2
         values[:, 1], slopes[:, 1, 1] = -np.log(b[:, 0]), -1 / b[:, 0]
         variance = self.variances(abc, slopes, weights, points)
-        return values, np.sqrt(np.where(variance > 0, variance, np.nan))
+        return values, np.sqrt(np.where(variance > 0, variance, np.nan)), abc
 
-    def maximum(self, points, exceeding):
+    def maximum(self, points, exceeding, start=None):
         """Returns a, b and c at the maximum of ln L in each sample, by Fisher scoring; NaN if the iteration does not
         converge."""
-        share = (exceeding.sum(axis=1) + 0.5) / (points.sum(axis=1) + 1)
-        abc = np.zeros((len(share), self.design.shape[1]))
-        abc[:, 0], abc[:, 1] = np.log(share / (1 - share)) / self.link.logit, 1
+        abc = np.zeros((len(points), self.design.shape[1]))
+        if start is None:
+            share = (exceeding.sum(axis=1) + 0.5) / (points.sum(axis=1) + 1)
+            start = np.zeros_like(abc)
+            start[:, 0], start[:, 1] = np.log(share / (1 - share)) / self.link.logit, 1
+        abc[:] = start
         active = np.arange(len(abc))
         for _ in range(MOST_ITERATIONS):
             if not active.size:

@@ -12,8 +12,8 @@ from scipy.special import ndtr
 from overturn.arguments import OLD_FRICTION, OLD_LIMIT, count, number, numbers, refuses_old
 from overturn.exceedance import OVERTURNING, Exceedance
 from overturn.fragility_curve import Fragility
-from overturn.fragility_plane import points_of_plane
-from overturn.lognormal_fit import LEAST_MOTIONS
+from overturn.plane_of_measures import FragilityPlane, points_of_plane, two_counts
+from overturn.motion_bootstrap import LEAST_MOTIONS, drawn
 
 if TYPE_CHECKING:
     import xarray
@@ -132,22 +132,38 @@ def _in_bins(edges, shares, im, units, mass=None):
     return Probability(at, im, units, edges, (edges[0], edges[-1]))
 
 
-def marginal(probability: Callable, density: Callable, y: ArrayLike, *, im: str, units: str) -> Probability:
-    """Returns P(x) = integral of P(x, y) f(y | x) dy of a function of two intensity measures.
+def marginal(probability: Callable | FragilityPlane, density: Callable, y: ArrayLike | None = None, *,
+             im: str | None = None, units: str | None = None) -> Probability:
+    """Returns P(x) = integral of P(x, y) f(y | x) dy of a function of two intensity measures, or of the fit of
+    fragility_plane(), with its confidence. In a bin of a plane in which a share u of the points has no verdict, P is
+    between P (1 - u) and P (1 - u) + u.
 
     probability(x, y), density(y, x): P [1] and f [1 / unit of y], of arrays that broadcast. P must be smooth in x.
     y: ascending values from the lowest to the highest y, no farther apart than P and f are smooth. Of what f has
-        outside, if it is above 1e-8, nothing or all overturns.
+        outside, if it is above 1e-8, nothing or all overturns. Of a plane, by default the edges of its bins.
+    im, units: of x; those of a plane are known.
 
     Computing a rate raises ValueError if f is negative or exceeds 1 in total.
     """
+    breaks = np.empty(0)
+    if isinstance(probability, FragilityPlane):
+        if np.isnan(probability.coefficients).any():
+            raise ValueError("this plane has no fit; its notes say why. binned_marginal() needs none.")
+        im, units, breaks, edges = probability.x, probability.x_units, probability.x_edges, probability.y_edges
+        y = edges if y is None else np.union1d(y, edges[(np.min(y) < edges) & (edges < np.max(y))])
     nodes, weights = _nodes(np.asarray(y, float))
 
     def at(x):
         mass, elsewhere = _mass(density, nodes, weights, x)
-        low = (mass * probability(x[:, None], nodes)).sum(axis=1)
-        return np.stack([low, low + elsewhere])[None]
-    return Probability(at, im, units, np.empty(0))
+        if len(breaks):
+            unknown = mass * probability.without_verdict_at(x[:, None], nodes)
+            known = mass - unknown
+            low = np.array([np.einsum("xy,xy->x", known, p) for p in probability.of_samples(x, nodes)])
+            elsewhere = elsewhere + unknown.sum(axis=1)
+        else:
+            low = (mass * probability(x[:, None], nodes)).sum(axis=1)[None]
+        return np.stack([low, low + elsewhere], axis=1)
+    return Probability(at, im, units, breaks, tuple(breaks[[0, -1]]) if len(breaks) else (0, np.inf))
 
 
 def _nodes(y):
@@ -180,20 +196,17 @@ def binned_marginal(dataset: xarray.Dataset, x: str, y: str, density: Callable, 
 
     x, y: measures as for fragility(), or ratios of two, such as "pgv/pga".
     density(y, x): f, as for marginal().
-    of, above, friction_demand, together, samples, seed: as for fragility(). There are no samples with fewer than ten motions.
+    of, above, friction_demand, together, samples, seed: as for fragility(). There are no samples with fewer than ten
+        motions.
 
     Raises ValueError if the dataset lacks what is needed.
     """
-    if not isinstance(bins, (list, tuple)) or len(bins) != 2:
-        raise ValueError(f"bins = {bins!r} are not two numbers of bins, of x and of y.")
-    bins = [count("bins", each) for each in bins]
-    samples, seed = count("samples", samples, least=0), count("seed", seed, least=0)
+    bins, samples, seed = two_counts(bins), count("samples", samples, least=0), count("seed", seed, least=0)
     found = points_of_plane(dataset, x, y, Exceedance(of, above), friction_demand, together, bins)
     motions, edges = found.motions, found.edges
     points, exceeding, unknown = found.totals()
-    drawn = np.random.default_rng(seed).multinomial(
-        len(motions), np.full(len(motions), 1 / len(motions)), samples * (len(motions) >= LEAST_MOTIONS))
-    low, high, total = (np.tensordot(np.vstack([np.ones(len(motions)), drawn]), sums, 1)
+    weights = np.vstack([np.ones(len(motions)), drawn(len(motions), samples * (len(motions) >= LEAST_MOTIONS), seed)])
+    low, high, total = (np.tensordot(weights, sums, 1)
                         for sums in (exceeding, exceeding + unknown, points + unknown))
     shares = np.stack([low, high], axis=1)
     shares = np.divide(shares, total[:, None], out=np.full(shares.shape, np.nan), where=total[:, None] > 0)

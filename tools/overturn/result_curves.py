@@ -6,7 +6,7 @@ import dataclasses
 import pathlib
 
 import overturn
-from overturn.block_groups import groups_of
+from overturn.block_groups import azimuths_of, groups_of
 from overturn.exceedance import OVERTURNING
 from overturn.tool import USAGE, Renamed, ToolError
 
@@ -20,8 +20,8 @@ def add_group_argument(parser):
 def add_curve_arguments(parser, bins):
     """Adds the arguments of a curve, see compute_curve()."""
     parser.add_argument("--of", metavar="FIELD", default=OVERTURNING,
-                        help="with --above, count the points whose field, such as peak or slide_peak, is above X; otherwise "
-                             "those that overturn")
+                        help="with --above, count the points whose field, such as peak or slide_peak, is above X; "
+                             "otherwise those that overturn")
     parser.add_argument("--above", type=float, metavar="X", help="in the unit of the field; of peak, at most 1")
     parser.add_argument("--limit", action=Renamed, const="--of peak --above", help=argparse.SUPPRESS)
     parser.add_argument("--friction", action=Renamed, const="--friction-demand", help=argparse.SUPPRESS)
@@ -38,9 +38,16 @@ def add_curve_arguments(parser, bins):
 
 
 def compute_curve(dataset, im, arguments, **further):
-    return overturn.fragility(dataset, im, of=arguments.of, above=arguments.above, friction_demand=arguments.friction_demand,
-                              bins=arguments.bins, equal_counts=arguments.equal_counts, samples=arguments.samples,
-                              seed=arguments.seed, **further)
+    return overturn.fragility(dataset, im, bins=arguments.bins, **_how(arguments), **further)
+
+
+def compute_plane(dataset, arguments):
+    return overturn.fragility_plane(dataset, *arguments.im, bins=(arguments.bins, arguments.bins), **_how(arguments))
+
+
+def _how(arguments):
+    names = ("of", "above", "friction_demand", "equal_counts", "samples", "seed")
+    return {name: getattr(arguments, name) for name in names}
 
 
 @contextlib.contextmanager
@@ -57,20 +64,22 @@ def open_dataset(path):
             raise ToolError(f"\"{path}\": {error}", USAGE) from error
 
 
-def curves_of(dataset, im, arguments):
-    if arguments.by is None:
-        return [compute_curve(dataset, im, arguments)]
+def curves_of(dataset, arguments, compute, parts=None):
+    """Returns the curves that a function computes of the blocks or, with --by, of each group of them; or of each of the
+    parts, by their names."""
+    if parts is None and arguments.by is None:
+        return [compute(dataset)]
     from overturn.fragility_curve import expect_records  # needs SciPy
     expect_records(dataset)
-    return [dataclasses.replace(compute_curve(blocks, im, arguments), group=group)
-            for group, blocks in groups_of(dataset, arguments.by).items()]
+    return [dataclasses.replace(compute(blocks), group=group)
+            for group, blocks in (parts or groups_of(dataset, arguments.by)).items()]
 
 
 def write_csv(curve, number, path, is_of_several_measures):
     """Writes the table of a curve. The measure, and the number of the group of blocks, are added to the name of the file
     if there are several."""
     path = pathlib.Path(path)
-    words = [curve.im] * is_of_several_measures + [str(number)] * bool(curve.group)
+    words = ([curve.im] if is_of_several_measures else []) + [str(number)] * bool(curve.group)
     path = path.with_name("_".join([path.stem, *words]) + path.suffix)
     curve.to_csv(path)
     print(path)

@@ -105,8 +105,8 @@ class Rock:
 
     def table(self, step: float | None = None, x_azimuth: float | None = None, names: str = "") -> dict:
         """Returns the columns of a table of blocks: a row for each edge of the outline or, with `step` [degree], for each
-        azimuth. They are one `object`, which falls if it falls in one of them. x_azimuth: of x on a compass [degree]; gives
-        the column direction. names: before the names of the rows."""
+        azimuth. They are one `object`, which falls if it falls in one of them. x_azimuth: of x on a compass [degree];
+        gives the column direction. names: before the names of the rows."""
         if step is None:
             azimuth = self.edges()
             name = [f"{names}edge {i + 1}" for i in range(len(azimuth))]
@@ -157,8 +157,8 @@ def _cross(a, b):
 
 def measure(mesh: str | os.PathLike, contacts: str | os.PathLike, unit: str = "m", up: str = "z", fill: bool = False,
             name: str | None = None) -> Rock:
-    """Returns the Rock of a mesh (.obj, .ply, .stl) on the contacts of a table. Its name is that of the mesh, without the
-    extension, if none is given. Raises ToolError for those that have no answer."""
+    """Returns the Rock of a mesh (.obj, .ply, .stl) on the contacts of a table. Its name is that of the mesh, without
+    the extension, if none is given. Raises ToolError for those that have no answer."""
     name = (pathlib.Path(mesh).stem if name is None else name).strip()
     if not name:
         raise ToolError("the name of a rock must not be empty.", USAGE)

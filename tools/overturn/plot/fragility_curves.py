@@ -13,7 +13,8 @@ from overturn.block_groups import counted
 from overturn.captions import escaped, plain, shortened
 from overturn.output_file import save
 from overturn.plot.headings import LINE, POINTS, wrapped
-from overturn.result_curves import add_curve_arguments, add_group_argument, curves_of, open_dataset, write_csv
+from overturn.result_curves import (add_curve_arguments, add_group_argument, azimuths_of, compute_curve, compute_plane,
+                                    curves_of, open_dataset, write_csv)
 from overturn.ticks import name_ticks
 from overturn.tool import parse_with_picture, parser_of
 
@@ -28,7 +29,13 @@ The curve is fitted to the single points by maximum likelihood. The band is the 
 interval at each value, by bootstrap over the motions. beta is the scatter: the smaller, the better
 the measure predicts the outcome. Points without a verdict (undecided, or not computed yet) are left
 out, counted and reported.
-All blocks are pooled in one curve, unless --by groups them.
+All blocks are pooled in one curve, unless --by groups them. Rows of a table with the same value in its
+column object are one block, which falls if it falls in one of them.
+
+--plane draws the fractions in bins of two measures, such as PGA and PGV/PGA, and a logistic fit:
+  tools/plot_fragility fragility.h5 --plane          # draws fragility_fragility.png
+--polar draws the median of each azimuth of a rock, which is a column of its table or an axis, and marks
+the weakest one.
 
 Other choices of blocks, and the numbers as arrays: overturn.fragility() in Python."""
 
@@ -95,10 +102,9 @@ def draw_panel(ax, curves):
         ax.set_xlim(min(ends), max(ends))
         name_ticks(ax.xaxis)
     ax.set_ylim(-0.03, 1.03)
-    ax.set_ylabel("fraction that overturns" if first.above is None
-                  else f"fraction with {FIELDS.get(first.of, first.of)} above {first.above:g}")
+    ax.set_ylabel(share_text(first))
     notes = [escaped(f"{curve.group}: {note}" if curve.group else note) for curve in curves for note in curve.notes]
-    ax.set_xlabel("\n".join([f"{NAMES.get(first.im, first.im)} [{UNITS.get(first.units, first.units)}]",
+    ax.set_xlabel("\n".join([measure_text(first.im, first.units),
                              *(line for note in notes for line in textwrap.wrap(note, TEXT_WIDTH))]))
     ax.set_title("\n".join(wrapped(counts_text(curves), 9, TITLE_WIDTH)), fontsize=9)
     ax.grid(color="0.9")
@@ -109,6 +115,19 @@ def draw_panel(ax, curves):
     elif ax.get_legend_handles_labels()[0]:
         ax.legend(fontsize=9, loc="best")
     return ax
+
+
+def measure_text(im, units):
+    """Returns a measure and its unit, or a ratio such as PGV/PGA [m/s/g]."""
+    names, units = ("/".join(words.get(each, each) for each in text.split("/"))
+                    for words, text in ((NAMES, im), (UNITS, units)))
+    return escaped(f"{names} [{units}]")
+
+
+def share_text(curve):
+    if curve.above is None:
+        return "fraction that overturns"
+    return f"fraction with {FIELDS.get(curve.of, escaped(curve.of))} above {curve.above:g}"
 
 
 def group_text(curve):
@@ -158,22 +177,42 @@ def draw_fit(ax, curve, colour, line, count):
 
 def read_arguments(argv):
     parser = parser_of("plot_fragility", __doc__, EXAMPLE, "overturn run under records")
-    parser.add_argument("--im", metavar="MEASURE", nargs="+", default=["pgv"],
+    parser.add_argument("--im", metavar="MEASURE", nargs="+",
                         help="intensity measures: pga, pgv, arias_intensity or significant_duration; under motions "
                              "of a floor, those of the floor, and ground_pga if it is known (default: pgv)")
+    parser.add_argument("--plane", action="store_true",
+                        help="draw the plane of two measures, --im X Y (default: pga pgv/pga)")
+    parser.add_argument("--polar", metavar="COLUMN", nargs="?", const="direction",
+                        help="draw the medians of the azimuths in a column of the table of blocks, or along an axis "
+                             "(default: direction, on a compass)")
     add_group_argument(parser)
     add_curve_arguments(parser, bins=10)
     parser.add_argument("--csv", metavar="OUT.csv",
                         help="also write the numbers of each bin; OUT_MEASURE.csv if there are several measures, "
                              "with --by OUT_1.csv, OUT_2.csv, ... of the groups")
-    return parse_with_picture(parser, argv, "FILE_fragility.png")
+    arguments = parse_with_picture(parser, argv, "FILE_fragility.png")
+    arguments.im = arguments.im or (["pga", "pgv/pga"] if arguments.plane else ["pgv"])
+    if arguments.polar and (arguments.plane or arguments.by):
+        parser.error("--polar has a curve for each azimuth; draw it without --plane and --by")
+    if arguments.plane and len(arguments.im) != 2:
+        parser.error("--plane needs two measures, such as --im pga pgv/pga")
+    if arguments.polar and len(arguments.im) != 1:
+        parser.error("--polar needs one measure, such as --im pga")
+    return arguments
 
 
 def compute(arguments):
-    """Returns the title, and the curves of each measure, one for each group of blocks."""
+    """Returns the title, the azimuths with --polar, and the curves of each measure, one for each group of blocks or
+    each azimuth; with --plane, the planes."""
     import scipy  # noqa: F401 (for overturn.fragility: if it is missing, fail before anything is read)
     with open_dataset(arguments.file) as dataset:
-        return title_of(dataset, arguments), [curves_of(dataset, im, arguments) for im in arguments.im]
+        title = title_of(dataset, arguments)
+        if arguments.plane:
+            return title, None, [curves_of(dataset, arguments, lambda blocks: compute_plane(blocks, arguments))]
+        degrees, parts = azimuths_of(dataset, arguments.polar) if arguments.polar else (None, None)
+        return title, degrees, [
+            curves_of(dataset, arguments, lambda blocks: compute_curve(blocks, im, arguments), parts)
+            for im in arguments.im]
 
 
 def title_of(dataset, arguments):
@@ -181,19 +220,31 @@ def title_of(dataset, arguments):
     return name + f", by {arguments.by}".replace("_", " ") * bool(arguments.by)
 
 
-def main(argv=None):
-    arguments = read_arguments(argv)
-    title, by_measure = compute(arguments)
-    for curves in by_measure:
-        for number, curve in enumerate(curves, 1):
-            print(curve.summary())
-            if arguments.csv:
-                write_csv(curve, number, arguments.csv, len(arguments.im) > 1)
+def draw(by_measure):
+    """Returns a figure with a panel for each measure."""
     figure, panels = pyplot.subplots(1, len(by_measure), squeeze=False, sharey=True, layout="constrained",
                                      figsize=(5.5 * len(by_measure), 5.2))
     make_room([draw_panel(panel, curves) for panel, curves in zip(panels.flat, by_measure)])
     for panel in panels.flat[1:]:
         panel.set_ylabel("")
+    return figure
+
+
+def main(argv=None):
+    from overturn.plot import azimuths, fragility_planes  # they import this module
+    arguments = read_arguments(argv)
+    title, degrees, by_measure = compute(arguments)
+    for curves in by_measure:
+        for number, curve in enumerate(curves, 1):
+            print(curve.summary())
+            if arguments.csv:
+                write_csv(curve, number, arguments.csv, len(by_measure) > 1)
+    if arguments.plane:
+        figure = fragility_planes.draw(by_measure[0])
+    elif arguments.polar:
+        figure = azimuths.fragility_azimuths(degrees, by_measure[0], arguments.polar).figure
+    else:
+        figure = draw(by_measure)
     lines = wrapped(plain(title), 12, 0.96 * figure.get_figwidth())
     figure.suptitle("\n".join(lines), fontsize=12, x=0.02, ha="left")
     save(figure, arguments.output, dpi=150)

@@ -16,7 +16,7 @@ from overturn.captions import escaped, plain, shortened
 from overturn.motion_words import variable_of_ground
 from overturn.output_file import save
 from overturn.plot.logic_trees import branches
-from overturn.plot.fragility_curves import BAND, COLOURS, NAMES, POINT, UNITS, draw_bins
+from overturn.plot.fragility_curves import BAND, COLOURS, POINT, draw_bins, measure_text
 from overturn.plot.headings import wrapped
 from overturn.ranges import confidence, table, text_of
 from overturn.result_curves import add_curve_arguments, compute_curve, open_dataset
@@ -68,7 +68,7 @@ def risk(hazard, fragility, years=DEFAULT_YEARS, *, title=None):
         panel.set_axisbelow(True)
     panels[0].set(xscale="log", xlim=hazard.level[[0, -1]])
     name_ticks(panels[2].xaxis)
-    panels[2].set_xlabel(escaped(f"{NAMES.get(hazard.im, hazard.im)} [{UNITS.get(hazard.units, hazard.units)}]"))
+    panels[2].set_xlabel(measure_text(hazard.im, hazard.units))
     notes = [line for note in found.notes for line in textwrap.wrap(note, TEXT_WIDTH)]
     figure.supxlabel(escaped("\n".join(notes)), fontsize=8, x=0.02, ha="left")
     numbers = found.summary(years).splitlines()[:2]
