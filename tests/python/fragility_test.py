@@ -208,7 +208,7 @@ class AnObject(unittest.TestCase):
         flat = result(region.reshape(11, 3, len(rows), -1)[..., 0], [1, 2, 4])
         dims = ("motion", "scale", "block", "restitution")[:region.ndim]
         data = flat.drop_vars("region").assign(region=(dims, region.astype(np.uint8), flat["region"].attrs))
-        data = data.assign_coords(object=("block", np.array([things[i][0] for i in rows], object)),
+        data = data.assign_coords(azimuth_of=("block", np.array([things[i][0] for i in rows], object)),
                                   azimuth=("block", np.arange(len(rows)) * 10.0))
         if samples:
             data = data.assign_coords(sample=("block", np.array([float(things[i][1]) for i in rows])))
@@ -243,14 +243,14 @@ class AnObject(unittest.TestCase):
             of_names = [[i for i, (name, _) in enumerate(things) if name == each] for each in names]
             verdicts = [self.worst([code for i in each for code in region[motion, scale, rows == i]])
                         for motion, scale in np.ndindex(11, 3) for each in itertools.product(*of_names)]
-            found = overturn.fragility(data, "pga", together="object", bins=3, samples=1)
+            found = overturn.fragility(data, "pga", together="azimuth_of", bins=3, samples=1)
             self.expect(found, verdicts, f"{len(names)} objects in {len(rows)} rows")
             self.assertIn(" together;", found.summary())
 
     def test_shares_the_unknown_direction_of_the_motion(self):
         data, region, rows, things = self.table(3, samples=False, others=(5,))
         data = data.rename(restitution="direction").assign_coords(direction=np.arange(5) * 72.0)
-        for together in (None, "object"):
+        for together in (None, "azimuth_of"):
             groups = [[i] for i in range(len(things))] if together is None else [range(len(things))]
             verdicts = [self.worst(region[motion, scale, :, direction][np.isin(rows, group)])
                         for motion, scale in np.ndindex(11, 3) for group in groups for direction in range(5)]
@@ -274,7 +274,7 @@ class AnObject(unittest.TestCase):
         data, region, rows, things = self.table(5, samples=False)
         stacked = data.stack(row=("motion", "scale", "block"))
         own = xarray.Dataset({"region": ("block", stacked.region.values, data.region.attrs)}, coords={
-            **{name: ("block", stacked[name].values) for name in ("motion", "record_pga", "scale", "object")}})
+            **{name: ("block", stacked[name].values) for name in ("motion", "record_pga", "scale", "azimuth_of")}})
         first, second = (overturn.fragility(each, "pga", samples=20) for each in (data, own))
         np.testing.assert_array_equal(first.exceeding, second.exceeding)
         self.assertEqual((first.median, first.motions, first.blocks), (second.median, second.motions, second.blocks))
@@ -282,8 +282,8 @@ class AnObject(unittest.TestCase):
 
     def test_with_equal_rows_has_the_curve_of_one_row(self):
         one = result(*graded()).isel(block=[3])
-        several = one.isel(block=[0, 0, 0]).assign_coords(object=("block", np.array(["rock"] * 3, object)))
-        for together in (None, "object"):
+        several = one.isel(block=[0, 0, 0]).assign_coords(azimuth_of=("block", np.array(["rock"] * 3, object)))
+        for together in (None, "azimuth_of"):
             alone, found = (overturn.fragility(each, samples=20, together=how)
                             for each, how in ((one, None), (several, together)))
             np.testing.assert_array_equal(found.samples, alone.samples)
@@ -292,24 +292,24 @@ class AnObject(unittest.TestCase):
 
     def test_is_told_apart_by_a_column_that_is_the_same_in_its_rows(self):
         data, _, rows, things = self.table(6, samples=False)
-        with self.assertRaisesRegex(ValueError, 'azimuth differs within an object, .* Choose "object"'):
+        with self.assertRaisesRegex(ValueError, 'azimuth differs within an object, .* Choose "azimuth_of"'):
             overturn.fragility(data, together="azimuth")
-        data = data.assign_coords(kind=("block", np.where(data["object"] == "a", "bust", "urn").astype(object)))
+        data = data.assign_coords(kind=("block", np.where(data["azimuth_of"] == "a", "bust", "urn").astype(object)))
         found = overturn.fragility(data, together="kind", samples=1)
         self.assertIn("2 blocks together", found.summary())
-        empty = data.assign_coords(object=("block", np.where(rows == 0, " ", data["object"].values).astype(object)))
-        with self.assertRaisesRegex(ValueError, "row [0-9]+ of the table has no object"):
+        empty = data.assign_coords(azimuth_of=("block", np.where(rows == 0, " ", data["azimuth_of"].values).astype(object)))
+        with self.assertRaisesRegex(ValueError, "row [0-9]+ of the table has an empty azimuth_of"):
             overturn.fragility(empty)
-        with self.assertRaisesRegex(ValueError, "row 1 of the table has no sample"):
+        with self.assertRaisesRegex(ValueError, "row 1 of the table has an empty sample"):
             overturn.fragility(data.assign_coords(sample=("block", np.full(len(rows), np.nan))))
 
     def test_counts_once_in_the_quarters_of_a_column(self):
         # Object i has i rows and the value i: the quarters of the 8 objects have two each.
         rows = np.repeat(np.arange(1, 9), np.arange(1, 9))
         region, scale = graded(blocks=len(rows))
-        data = result(region, scale).assign_coords(object=("block", rows), mass=("block", 1.0 * rows))
+        data = result(region, scale).assign_coords(azimuth_of=("block", rows), mass=("block", 1.0 * rows))
         groups = groups_of(data, "mass")
-        self.assertEqual([len(np.unique(part["object"])) for part in groups.values()], [2, 2, 2, 2])
+        self.assertEqual([len(np.unique(part["azimuth_of"])) for part in groups.values()], [2, 2, 2, 2])
         self.assertEqual(overturn.fragility(groups["mass = 7 to 8"], samples=1).kind, "objects in 15 rows")
 
 
@@ -358,13 +358,13 @@ class ThePlane(unittest.TestCase):
 
     def test_counts_an_object_once(self):
         data = logistic_site(3, blocks=6)
-        of_objects = data.assign_coords(object=("block", [1, 1, 1, 2, 2, 2]))
+        of_objects = data.assign_coords(azimuth_of=("block", [1, 1, 1, 2, 2, 2]))
         region = data.region.values.reshape(30, 8, 2, 3).max(axis=-1)
         united = data.isel(block=[0, 1]).assign(region=(data.region.dims, region, data.region.attrs))
         united = united.assign_coords(block=[1, 2])
         for together in (None, "block"):
             found, expected = (overturn.fragility_plane(each, samples=5, together=how) for each, how in (
-                (of_objects, together and "object"), (united, together)))
+                (of_objects, together and "azimuth_of"), (united, together)))
             np.testing.assert_array_equal(found.exceeding, expected.exceeding)
             np.testing.assert_array_equal(found.samples, expected.samples)
             self.assertIn("2 objects in 6 rows", found.summary())

@@ -14,7 +14,7 @@ NOT_GIVEN = "not given"  # an empty number
 @dataclasses.dataclass(frozen=True, eq=False)
 class Objects:
     """The rows of a table that are one thing, such as a rock in several azimuths: they have the same value of the
-    column `object` (and of `sample`, which distinguishes equally likely variants of an object), and, if each row has a
+    column `azimuth_of` (and of `sample`, which distinguishes equally likely variants of an object), and, if each row has a
     motion of its own, the same motion."""
 
     dimension: str
@@ -40,25 +40,25 @@ class Objects:
 
 
 def objects_of(dataset):
-    """Returns the Objects of a data set of overturn.open(), or None if its table has no column `object`. Raises
-    ValueError if a row has no object or no sample."""
-    if "object" not in dataset or not _is_of_blocks(dataset, "object"):
+    """Returns the Objects of a data set of overturn.open(), or None if its table has no column `azimuth_of`. Raises
+    ValueError if a row has an empty azimuth_of or sample."""
+    if "azimuth_of" not in dataset or not _is_of_blocks(dataset, "azimuth_of"):
         return None
-    dimension, = dataset["object"].dims
+    dimension, = dataset["azimuth_of"].dims
     numbers = {}
-    for name in ("object", "sample", "motion", "motion_name", "scale"):
+    for name in ("azimuth_of", "sample", "motion", "motion_name", "scale"):
         if name in dataset and dataset[name].dims == (dimension,):
             values = dataset[name].values
             empty = [not str(each).strip() or each != each for each in values.tolist()]
-            if any(empty) and name in ("object", "sample"):
-                raise ValueError(f"row {empty.index(True) + 1} of the table has no {name}. Give every row the {name} "
-                                 "to which it belongs.")
+            if any(empty) and name in ("azimuth_of", "sample"):
+                raise ValueError(f"row {empty.index(True) + 1} of the table has an empty {name}. Give every row the name "
+                                 "of its object or the number of its sample.")
             numbers[name] = np.unique(values, return_inverse=True)[1]
 
     def combined(*names):
         chosen = np.stack([numbers[name] for name in names if name in numbers])
         return np.unique(chosen, axis=1, return_inverse=True)[1].ravel()
-    return Objects(dimension, numbers["object"], len(np.unique(combined("object", "sample"))), combined(*numbers))
+    return Objects(dimension, numbers["azimuth_of"], len(np.unique(combined("azimuth_of", "sample"))), combined(*numbers))
 
 
 def groups_of(dataset, column):
@@ -84,7 +84,7 @@ def groups_of(dataset, column):
 def blocks_at_one_site(dataset, column):
     """Returns the number of blocks at one site, which are those with different values of a column; the parts of a data
     set of overturn.open() that stand or overturn together; and the dimension along which they are. There is a part for
-    each block or, if the table has a column `direction` but no `object`, for each of its directions: such rows are
+    each block or, if the table has a column `direction` but no `azimuth_of`, for each of its directions: such rows are
     sides of one block.
 
     Raises ValueError if the column does not distinguish the blocks, differs within an object, has an empty value, or if
@@ -104,7 +104,7 @@ def blocks_at_one_site(dataset, column):
     objects = objects_of(dataset)
     if objects and objects.dimension == dimension:
         if sum(len(np.unique(objects.names[part])) for part in parts) > len(np.unique(objects.names)):
-            raise ValueError(f"{column} differs within an object, whose rows fall together anyway. Choose \"object\", "
+            raise ValueError(f"{column} differs within an object, whose rows fall together anyway. Choose \"azimuth_of\", "
                              "or another column that is the same in all rows of an object.")
     elif "direction" in dataset and dataset["direction"].dims == (dimension,):
         directions = dataset["direction"].values

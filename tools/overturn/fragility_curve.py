@@ -96,9 +96,9 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", *, of: str = OVERTURNING
         above a level in the unit of the field, such as of="peak", above=0.4. Points whose value is NaN have no verdict.
     friction_demand: coefficient between block and ground, up to 2; points that need more, see the field friction_demand, have no
         verdict.
-    together: column or axis that distinguishes the blocks of one site, such as "object" or "block". A point is then one
+    together: column or axis that distinguishes the blocks of one site, such as "azimuth_of" or "block". A point is then one
         block of each of its values, under one motion in one direction, and exceeds if one of them does: survival is
-        multiplied within each motion. Without a column `object`, rows of a table that differ in a column `direction`
+        multiplied within each motion. Without a column `azimuth_of`, rows of a table that differ in a column `direction`
         are sides of one block, and also exceed together; a measure that depends on the direction is the largest of
         theirs. An axis `direction` is the unknown direction of the motion, the same for all blocks. Points that differ
         in other dimensions are equally likely variants of a block.
@@ -106,8 +106,8 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", *, of: str = OVERTURNING
         widths in the logarithm; they do not change the fit. Few different values of the measure give fewer bins.
     samples, seed: of the bootstrap over motions that gives the 95 % confidence.
 
-    Rows of a table with the same value in its column `object` are one block, which exceeds if it does in one of its
-    rows: a rock in several azimuths. If there is a column `sample`, rows of equal `object` and `sample` are one of the
+    Rows of a table with the same value in its column `azimuth_of` are one block, which exceeds if it does in one of its
+    rows: a rock in several azimuths. If there is a column `sample`, rows of equal `azimuth_of` and `sample` are one of the
     equally likely variants of an object. A measure that depends on the direction is the largest of those of its rows.
 
     Points without a verdict are left out and counted; they are never safe. Raises ValueError if the

@@ -26,7 +26,7 @@ def points_of(dataset, measures, exceedance, friction_demand, together=None):
     parts, dimension, whose = [dataset], objects.dimension if has_several_rows else None, "rows of an object"
     if together is not None:
         number, parts, dimension = blocks_at_one_site(dataset, together)
-        blocks = blocks if together == "object" else {"blocks": number, "kind": "blocks"}
+        blocks = blocks if together == "azimuth_of" else {"blocks": number, "kind": "blocks"}
         whose = "blocks"
     vary = [name for name, each in measures.items()
             if dimension in each.dims and dimension not in dataset["motion"].dims]

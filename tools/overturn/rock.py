@@ -59,7 +59,7 @@ SMALLEST, LARGEST = 0.05, 50.0  # usual sizes of a rock [m]
 class Rock:
     """A rock on its contacts. Lengths are in metres; z is up, x and y are those of the mesh turned by `up`."""
 
-    name: str  # in the column `object` of its table
+    name: str  # in the column `azimuth_of` of its table
     volume: float  # [m3]
     centre: np.ndarray  # of mass, in the coordinates and the unit of the mesh
     inertia: np.ndarray  # of each unit of mass, about the centre of mass [m2]
@@ -105,7 +105,7 @@ class Rock:
 
     def table(self, step: float | None = None, x_azimuth: float | None = None, names: str = "") -> dict:
         """Returns the columns of a table of blocks: a row for each edge of the outline or, with `step` [degree], for each
-        azimuth. They are one `object`, which falls if it falls in one of them. x_azimuth: of x on a compass [degree];
+        azimuth. They are one `azimuth_of`, which falls if it falls in one of them. x_azimuth: of x on a compass [degree];
         gives the column direction. names: before the names of the rows."""
         if step is None:
             azimuth = self.edges()
@@ -122,7 +122,7 @@ class Rock:
         across = np.stack([-np.sin(azimuth), np.cos(azimuth), 0 * azimuth], -1)
         spun = across @ self.inertia
         gyration2 = (spun * across).sum(axis=1)
-        columns = {"object": [self.name] * len(name), "name": name, "azimuth_from_x": np.degrees(azimuth) % 360}
+        columns = {"azimuth_of": [self.name] * len(name), "name": name, "azimuth_from_x": np.degrees(azimuth) % 360}
         if x_azimuth is not None:
             columns["direction"] = np.where(compass % 360 < 360, compass % 360, 0)  # of -1e-15, % is 360
         for side, (distance, height) in zip(("plus", "minus"), sides):
@@ -502,7 +502,7 @@ def main(argv=None):
         columns, text = sampled(found, columns, arguments)
         print(text)
     write_text(arguments.output, text_of(columns), "a table of tools/rock",
-               lambda beginning: beginning.startswith(b"object,name,azimuth_from_x,"))
+               lambda beginning: beginning.startswith(b"azimuth_of,name,azimuth_from_x,"))
     print(arguments.output)
     if arguments.picture:
         from overturn.plot.rocks import rock as draw
