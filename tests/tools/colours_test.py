@@ -6,6 +6,7 @@ import unittest
 import numpy as np
 from matplotlib import colors
 from tool import InAFolder  # noqa: F401  first: adds the package to the path
+from overturn.plot.curves import COLOURS
 from overturn.regions import CODES, REGIONS, SAFE, UNDECIDED, UNSAFE
 
 # Machado, Oliveira, Fernandes, IEEE Trans. Vis. Comput. Graph. 15 (2009) 1291, severity 1.0; for linear RGB.
@@ -93,6 +94,12 @@ class TestTheColours(unittest.TestCase):
             for pair in itertools.combinations(shades, 2):
                 if sight != "grey" or not u2 & {*pair}:
                     self.assertGreater(difference(*(seen(colour, sight) for colour in pair)), 2.5, (pair, sight))
+
+    def test_of_curves_are_told_apart_from_each_other_and_from_paper(self):
+        for sight in SIGHTS:
+            self.assertGreater(least(COLOURS, [PAPER], sight), 15)
+            for pair in itertools.combinations(COLOURS, 2):
+                self.assertGreater(difference(*(seen(colour, sight) for colour in pair)), 9, (pair, sight))
 
 
 if __name__ == "__main__":

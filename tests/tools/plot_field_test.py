@@ -7,9 +7,11 @@ import unittest
 
 import numpy as np
 from matplotlib import pyplot
+from matplotlib.lines import Line2D
 from plot_spectrum_test import F_MINUS, NOT_COMPUTED, S, S_PLUS, U0_MINUS, UNDECIDED, where
 from recorded_spectra_test import Recorded
 import overturn
+from overturn.plot.curves import places_of_markers
 from overturn.regions import STANDS, TOPPLES
 
 KINDS = (STANDS, TOPPLES, UNDECIDED)
@@ -121,24 +123,75 @@ class TestAField(Field):
         np.testing.assert_array_equal(y, [0.5, 0.7, np.nan, 0.9, np.nan, 0.2])
         self.assertEqual(ax.get_ylabel(), "the peak")
         self.assertIn("pulse amplitude", ax.get_xlabel())
-        low, high = ax.get_ylim()
-        self.assertTrue(low < 0.2 and high > 0.9, (low, high))
         pyplot.close(ax.figure)
-        _, topples, unknown = self.shares("--field", "peak")
-        for share in (topples, unknown):
-            self.assertAlmostEqual(share, 0.9 / 5.9, delta=0.02)  # six bands with gaps
+        for code in KINDS[1:]:
+            self.assertAlmostEqual(self.shares_of_strip(ax, 0)[code], 0.9 / 5.9, delta=0.01)  # six bands with gaps
 
-    def test_along_an_axis_of_few_values_has_a_panel_with_a_line_for_each(self):
+    def draw(self, codes, name, values, **how):
+        """Returns the axes of a picture of a new spectrum."""
+        self.spectrum_with(codes, name, values)
+        axes = overturn.plot.spectrum(self.folder / "spectrum.h5", field=name, **how)
+        self.addCleanup(pyplot.close, "all")
+        return axes
+
+    def shares_of_strip(self, ax, number):
+        """Returns the shares of a strip above the curves in the colours of STANDS, TOPPLES and UNDECIDED."""
+        pixels = ax.child_axes[0].images[number].get_array()[:1, :, :3]
+        return {code: where(pixels, code).mean() for code in KINDS}
+
+    def test_along_an_axis_of_few_values_is_a_curve_for_each(self):
         values = np.arange(36.0).reshape(3, 12) + 1
-        self.spectrum_with(np.full((3, 12), S), "peak", values)
-        panels = overturn.plot.spectrum(self.folder / "spectrum.h5", field="peak")
-        self.assertEqual([len(panel.lines) for panel in panels], [1, 1, 1])
-        for panel, row in zip(panels, values):
-            np.testing.assert_array_equal(panel.lines[0].get_data(), [np.arange(1.0, 13), row])
-            self.assertEqual(panel.get_ylim(), panels[0].get_ylim())
-        titles = [panel.get_title() for panel in panels]
-        self.assertEqual(len(set(titles)), 3, titles)
-        pyplot.close(panels[0].figure)
+        ax = self.draw(np.full((3, 12), S), "peak", values)
+        curves = ax.lines[:3]
+        for curve, row in zip(curves, values):
+            np.testing.assert_array_equal(curve.get_data(), [np.arange(1.0, 13), row])
+        for property_of in (Line2D.get_color, Line2D.get_marker, Line2D.get_label):
+            self.assertEqual(len({*map(property_of, curves)}), 3)
+        labels = [text.get_text() for text in ax.figure.legends[0].get_texts()]
+        self.assertEqual(labels[:3], ["amplitude = 1", "amplitude = 2", "amplitude = 3"])
+        self.assertEqual(labels[-1], "stands")
+
+    def test_in_curves_ends_where_a_block_topples_or_nothing_is_known(self):
+        codes = np.tile(np.repeat([S, F_MINUS, S, UNDECIDED, NOT_COMPUTED], 4), (2, 1))
+        codes[1] = S
+        values = np.where(codes == F_MINUS, np.inf, 0.5)
+        ax = self.draw(codes, "peak", values)
+        np.testing.assert_array_equal(ax.lines[0].get_ydata(), np.where(codes[0] == S, 0.5, np.nan))
+        strip = self.shares_of_strip(ax, 0)
+        for code, share in ((STANDS, 2 / 5), (TOPPLES, 1 / 5), (UNDECIDED, 1 / 5)):  # a fifth is hatched
+            self.assertAlmostEqual(strip[code], share, delta=0.03)  # half a cell less at the ends
+        self.assertEqual(self.shares_of_strip(ax, 1)[STANDS], 1)
+        labels = [text.get_text() for text in ax.figure.legends[0].get_texts()]
+        self.assertEqual(labels[-4:], ["stands", "topples", "unknown", "not computed yet"])
+
+    def test_marks_points_between_others_that_topple(self):
+        generator = np.random.default_rng(3)
+        for count in (2, 9, 400):
+            values = np.where(generator.random(count) < 0.5, 0.5, np.nan)
+            known = [0 <= i < count and np.isfinite(values[i]) for i in range(-1, count + 1)]
+            alone = [i for i in range(count) if known[i + 1] and not known[i] and not known[i + 2]]
+            self.assertLessEqual({*alone}, {*places_of_markers(values)})
+
+    def test_of_peaks_begins_at_0_and_has_a_line_at_1_whatever_the_values(self):
+        for values in (np.geomspace(1e-5, 0.3, 12), np.linspace(0.5, 2, 12)):
+            ax = self.draw(np.full((2, 12), S), "peak", np.tile(values, (2, 1)))
+            low, high = ax.get_ylim()
+            self.assertEqual((ax.get_yscale(), low), ("linear", 0))
+            self.assertTrue(max(1, values.max()) < high < 1.1 * max(1, values.max()))
+            self.assertEqual({*ax.lines[2].get_ydata()}, {1})
+        self.assertEqual(self.draw(np.full((2, 12), S), "margin", np.tile(np.geomspace(1e-5, 1, 12), (2, 1))).get_yscale(), "log")
+
+    def test_along_axes_of_more_values_is_a_map(self):
+        self.assertEqual(len(self.draw(np.full((7, 12), S), "peak", np.ones((7, 12))).lines), 0)
+
+    def test_is_not_drawn_over_another_picture(self):
+        for shape in ((2, 12), (9, 12)):
+            ax = self.draw(np.full(shape, S), "peak", np.ones(shape), ax=pyplot.figure().add_subplot())
+            for draw in (overturn.plot.spectrum, overturn.plot.boundary):
+                with self.assertRaisesRegex(overturn.ToolError, "already have a picture"):
+                    draw(self.folder / "spectrum.h5", ax=ax)
+            ax.clear()
+            overturn.plot.spectrum(self.folder / "spectrum.h5", ax=ax)
 
     def test_is_that_of_the_program(self):
         self.compute()

@@ -68,7 +68,7 @@ class TestPicturesFromPython(InOneFolder):
         self.assertEqual(panels[0].get_xlabel(), panels[1].get_xlabel())
         self.assertIn("time since the start of the pulse", panels[2].get_xlabel())
         with self.assertRaisesRegex(overturn.ToolError, "limited to 1"):
-            overturn.plot.spectrum(self.path("spectrum"), ax=panels[0])
+            overturn.plot.spectrum(self.path("spectrum"), ax=pyplot.figure().add_subplot())
 
     def codes_of(self, result):
         """Returns the region codes of the panels of a picture."""

@@ -6,7 +6,7 @@ import pathlib
 
 import numpy as np
 from overturn.motion_words import is_of_floor, worded
-from overturn.spectrum_planes import JOB, PHYSICAL
+from overturn.spectrum_planes import EQUIVALENTS, JOB, PHYSICAL
 from overturn.tables import RATES, SIZES, STRENGTHS
 
 PULSES = {"symmetric_ricker": "symmetric Ricker wavelet",
@@ -127,13 +127,31 @@ def quantity_text(file, name, value):
     return f"{worded(file.attrs, SYMBOLS.get(name, name))} = {value:.4g} {units}".rstrip()
 
 
+def share_text(share):
+    return "r = r_max" if share == 1 else f"r = {share:g} r_max"
+
+
+def curve_text(line, units):
+    """Returns the value that tells a line from the others of its picture, which is that of the last of its indices."""
+    name = [*line.index][-1]
+    names, value = names_of(line.file, name), line.value(name)
+    if names:
+        return names[value]
+    if name == "slenderness":
+        return slenderness_text(value, units)
+    if name == "restitution_of_maximum":
+        return share_text(value)
+    other = EQUIVALENTS.get(name, name)
+    shown = other if units == PHYSICAL and line.value(other) is not None else name
+    return quantity_text(line.file, shown, line.value(shown))
+
+
 def block_text(plane, units):
     """Returns the slenderness and the restitution, unless they vary in the plane."""
     alpha, r, share = map(plane.value, ("slenderness", "restitution", "restitution_of_maximum"))
     words = [] if alpha is None else [slenderness_text(alpha, units)]
     if share is not None:
-        of = "r_max" if share == 1 else f"{share:g} r_max"
-        words.append(f"r = {of}" + (f" = {r:.4g}" if r is not None else ""))
+        words.append(share_text(share) + (f" = {r:.4g}" if r is not None else ""))
     elif r is not None:
         words.append(f"r = {r:.4g}")
     return ",  ".join(words)

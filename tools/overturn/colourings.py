@@ -9,12 +9,14 @@ from overturn.spectrum_planes import LINEAR, LOG, Axis
 from overturn.tool import USAGE, ToolError
 from overturn.units import label_of
 
-WIDE = 1e3  # ratio of positive values above which their scale is logarithmic
+WIDE = 1e3  # ratio of positive values above which their scale is logarithmic, but for LEVELS
+MOST_LINES = 6  # curves in a panel
 VALUE, INFINITE = 250, 249  # codes of pixels with a value, and with an infinite one
 INFINITE_COLOUR = "black"
 # The code whose colour infinite values of a field have, if these state a verdict, or that something is unknown.
 MEANINGS = {"peak": TOPPLES, "fall_time": STANDS, "error": UNDECIDED}
 # Values are lighter than what topples; of values with a sign, the negative ones are red, as negative margins.
+LEVELS = {"peak": (1, "|θ| = α: balance on an edge")}  # values that mean something
 UNSIGNED = colors.LinearSegmentedColormap.from_list("values", colormaps["YlGnBu"](np.linspace(0, 0.62, 256)))
 SIGNED = colormaps["RdBu"]
 
@@ -25,9 +27,9 @@ class Regions:
     def add(self, planes):
         """Reads what is common to the pictures of some planes."""
 
-    def has_line(self, plane):
-        """Whether a plane is drawn as a line, not as an image."""
-        return False
+    def lines(self, plane):
+        """Returns the planes of one dimension that are drawn as curves in place of an image."""
+        return []
 
     def picture(self, plane, codes, up, across):
         """Returns the codes that a picture of a plane with these region codes shows, and its RGBA."""
@@ -68,9 +70,10 @@ class Field(Regions):
         low, high = min(extremes, default=0.0), max(extremes, default=1.0)
         if low == high:
             low, high = low - 0.5, high + 0.5
-        scale = LOG if low > 0 and high / low > WIDE else LINEAR
+        scale = LOG if low > 0 and high / low > WIDE and self.name not in LEVELS else LINEAR
         #: vertical, of lines
-        self.axis = Axis(np.array([low, high]), scale, is_to_scale=True)
+        self.axis = Axis(np.array([0, max(high, LEVELS[self.name][0])] if self.name in LEVELS else [low, high]), scale,
+                         is_to_scale=True)
         # Of a field with a sign, 0 is in the middle, and the values beyond the smaller extreme have one colour.
         reach = min(-low, high) if high > 0 else -low
         self.norm = (colors.LogNorm(low, high) if scale == LOG else
@@ -83,8 +86,8 @@ class Field(Regions):
         flags = file[self.name].attrs.get("flag_values", ())
         return np.where(VERDICT_OF[region] == UNDECIDED, np.nan, np.where(np.isin(values, flags), np.inf, values))
 
-    def has_line(self, plane):
-        return plane.across is None
+    def lines(self, plane):
+        return plane.lines(MOST_LINES)
 
     def line(self, plane, up):
         """Returns the values of the only axis in ascending order, and those of the field, NaN where none is finite."""
@@ -102,6 +105,14 @@ class Field(Regions):
         picture[shown == INFINITE] = colors.to_rgba_array(INFINITE_COLOUR) * 255
         is_value = shown == VALUE
         picture[is_value] = self.colours(self.norm(values[is_value]), bytes=True)
+        return shown, picture
+
+    def verdicts(self, plane, codes, up, across):
+        """Returns codes and RGBA of the same picture with the verdict on each value."""
+        shown, picture = self.picture(plane, codes, up, across)
+        is_value = shown == VALUE
+        shown[is_value] = VERDICT_OF[codes[is_value]]
+        picture[is_value] = coloured(shown[is_value])
         return shown, picture
 
     def legend(self, codes, ground):

@@ -27,13 +27,13 @@ class Plane:
         self.height = file.sizes[up]
 
     def lines(self, most):
-        """Returns the planes along the axis of many values alone, one for each value of the other, if that has at most so
-        many."""
+        """Returns the planes along the axis of many values alone, one for each value of the other; none if that has more
+        than so many."""
         if self.across is None:
             return [self]
         (fewer, few), (more, many) = sorted((self.file.sizes[name], name) for name in (self.across, self.up))
         if fewer > most or (fewer > 1 and more <= FEW):
-            return [self]
+            return []
         return [Plane(self.file, {**self.index, few: place}, None, many) for place in range(fewer)]
 
     def read(self, name, rows=slice(None)):

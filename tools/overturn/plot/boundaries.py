@@ -19,7 +19,7 @@ from overturn.choice import add_choice_arguments, sheet_of
 from overturn.motion_words import worded
 from overturn.output_file import save
 from overturn.plot.bands import set_axes
-from overturn.plot.cover import cover, hatch
+from overturn.plot.cover import cover, expect_empty, hatch
 from overturn.plot.headings import Heading
 from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.result_file import BOUNDARY, open_result
@@ -226,6 +226,7 @@ def draw_figure(plane, units):
 
 def draw(path, arguments, ax=None):
     """Draws into the given axes, or without them a figure. Returns the axes; a list of them for several boundaries."""
+    expect_empty(ax)
     with open_result(path, BOUNDARY) as file:
         expect_size(file, arguments.units)
         planes, columns, left_out = sheet_of(file, arguments, 1 if ax is not None else MOST_PANELS)

@@ -1,10 +1,19 @@
 """What covers a panel: a picture, and a hatch where that is transparent."""
 
 from overturn.regions import HATCH
+from overturn.tool import USAGE, ToolError
 
 
-def cover(panel, picture):
-    image = panel.imshow(picture, extent=(0, 1, 0, 1), transform=panel.transAxes, origin="lower",
+def expect_empty(ax):
+    """Raises an error if there is a picture in the axes of a caller, if any: another one would cover it."""
+    if ax is not None and (ax.images or ax.child_axes):
+        raise ToolError("the axes already have a picture, which another one would cover. Give other axes, or clear these with "
+                        "ax.clear(). Curves for up to 6 values of an axis come from one call with field=.", USAGE)
+
+
+def cover(panel, picture, low=0, high=1):
+    """Covers the panel, or a part of its height."""
+    image = panel.imshow(picture, extent=(0, 1, low, high), transform=panel.transAxes, origin="lower",
                          aspect="auto", interpolation="nearest")
     image.set_in_layout(False)  # Matplotlib takes its extent for one in data coordinates
 

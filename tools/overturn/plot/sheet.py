@@ -18,9 +18,10 @@ class Sheet:
 
     LEFT, RIGHT, BOTTOM, GAP, EDGE = 0.85, 3.25, 0.7, 0.45, 0.1
 
-    def __init__(self, heading, titles, columns, dpi, axes):
+    def __init__(self, heading, titles, columns, dpi, axes, above=0):
         """`heading` is a pair, the title of the sheet and the line below it; `titles` are those of the panels, and
-        `axes` pairs of Axis of each, the horizontal and the vertical one."""
+        `axes` pairs of Axis of each, the horizontal and the vertical one. `above` is the height of what is drawn between a
+        panel and its title, over that of the panel."""
         count = len(titles)
         rows = -(-count // columns)
         side = min(SIDES[columns], max(MOST_HEIGHT / rows, SIDES[10]))
@@ -38,8 +39,10 @@ class Sheet:
                             for line in wrapped(words, size, side + self.GAP / 2, ",")) for title in titles]
         further = max(title.count("\n") for title in titles)  # lines above a panel
         line = size * LINE * 1.3 / POINTS
-        gap = self.GAP + line * max(0, further - 1) + (0 if shares[0] else below + 0.2)
-        self.top = self.explained = 1 + line * further + heading.extra
+        above *= side
+        gap = self.GAP + above + line * max(0, further - 1) + (0 if shares[0] else below + 0.2)
+        self.top = 1 + above + line * further + heading.extra
+        self.explained = self.top - above
         self.height = self.top + rows * (side + gap) - gap + self.bottom
         self.figure, self.panels = pyplot.subplots(rows, columns, squeeze=False, dpi=dpi,
                                                    sharex=shares[0], sharey=shares[1],

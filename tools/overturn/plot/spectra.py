@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 from collections.abc import Mapping
 from types import SimpleNamespace
 
@@ -18,11 +17,11 @@ from overturn.marked_points import Misjudged, Slipping
 from overturn.output_file import save
 from overturn.overlay import draw_boundary, open_boundary
 from overturn.plot.bands import set_axes
-from overturn.plot.cover import cover, hatch
+from overturn.plot.cover import cover, expect_empty, hatch
+from overturn.plot.curves import curve_entries, draw_curves, height_of_strips
 from overturn.plot.sheet import MOST_PANELS, Sheet
 from overturn.region_labels import Label, add_label_argument, thinned, write_label
 from overturn.result_file import SPECTRUM, open_result
-from overturn.spectrum_planes import BANDS
 from overturn.tool import USAGE, Renamed, ToolError, parse_with_picture, parser_of
 from overturn.units import add_units_argument, axes_of_plane, expect_size, name_axes
 
@@ -40,8 +39,8 @@ than 100, so many in even steps:
 The axes are the last two dimensions of several values; an index of one of these takes it out:
   tools/plot_spectrum heights.h5 --index pulse_period=0   # height and PGA, of height, PGA and period
 
-Three colours show what stands, what topples and what is unknown. A map of the largest tilt, the field peak, is a rocking
-spectrum:
+Three colours show what stands, what topples and what is unknown. The largest tilt, the field peak, is a rocking
+spectrum: a map or, of at most 6 values of an axis, such as slendernesses, a curve for each:
   tools/plot_spectrum figure_07a.h5 --verdict
   tools/plot_spectrum figure_07a.h5 --field peak
 
@@ -63,18 +62,11 @@ Axes are drawn in the units of the job. If it gives the size of the block, all c
 computed part is plotted."""
 
 
-MOST_DOTS = 200  # on a line
-MOST_LINES = 6  # along an axis of few values
-
-
-def axes_in_picture(plane, axes, colouring):
-    """Returns the horizontal and the vertical Axis; the only one of a line is horizontal."""
-    return (axes[1], colouring.axis) if colouring.has_line(plane) else axes
-
-
-def draw_line(panel, plane, up, field):
-    panel.plot(*field.line(plane, up), linestyle="none" if up.scale == BANDS else "-", linewidth=1.2, color="black",
-               marker="." if up.size <= MOST_DOTS else "", markersize=4)
+def axes_in_picture(plane, arguments, colouring):
+    """Returns the horizontal and the vertical Axis; that of a line is horizontal."""
+    if lines := colouring.lines(plane):
+        return axes_of_plane(lines[0], arguments.units)[1], colouring.axis
+    return axes_of_plane(plane, arguments.units, arguments.boundary is not None)
 
 
 def write_labels(panel, codes, labels, across, up):
@@ -85,49 +77,54 @@ def write_labels(panel, codes, labels, across, up):
             write_label(panel, piece, label.text, size=13)
 
 
-def draw_panels(panels, pixels, planes, axes, arguments, layers):
-    """Draws the maps, each of pixels x pixels, and returns the codes in the picture. `layers` are what the colours show, and
-    marks."""
-    present = set()
+def draw_map(panel, plane, across, up, pixels, layers):
+    """Draws a map of pixels x pixels, and returns its region codes and the codes in the picture."""
     colouring, *marks = layers
-    with open_boundary(arguments.boundary, planes[0], arguments.units) as boundary:
-        for panel, plane, (across, up) in zip(panels, planes, axes):
-            has_line = colouring.has_line(plane)
-            codes = plane.read_regions(up, across, pixels)
-            shown, picture = colouring.picture(plane, codes, up, across)
-            present.update(np.unique(shown))
-            if has_line:
-                picture[shown == VALUE] = 255
-            set_axes(panel, *axes_in_picture(plane, (across, up), colouring))
-            hatch(panel)
-            for each in (picture, *(mark.picture(plane, codes, up, across) for mark in marks)):
-                cover(panel, each.swapaxes(0, 1) if has_line else each)
-            if has_line:
-                draw_line(panel, plane, up, colouring)
+    codes = plane.read_regions(up, across, pixels)
+    shown, picture = colouring.picture(plane, codes, up, across)
+    set_axes(panel, across, up)
+    hatch(panel)
+    for each in (picture, *(mark.picture(plane, codes, up, across) for mark in marks)):
+        cover(panel, each)
+    return codes, np.unique(shown)
+
+
+def draw_panels(panels, pixels, planes, axes, arguments, layers):
+    """Draws the panels and returns the codes in the picture. `layers` are what the colours show, and marks."""
+    present = set()
+    lines = [layers[0].lines(plane) for plane in planes]
+    with open_boundary(arguments.boundary, *lines[0][:1] or planes[:1], arguments.units) as boundary:
+        for panel, plane, curves, (across, up) in zip(panels, planes, lines, axes):
+            if curves:
+                present.update(draw_curves(panel, curves, across, pixels, arguments.units, layers))
+                continue
+            codes, shown = draw_map(panel, plane, across, up, pixels, layers)
+            present.update(shown)
             if boundary is not None:
                 draw_boundary(panel, boundary, plane, arguments.units)
-            write_labels(panel, *((codes.T, arguments.label, up, across) if has_line else
-                                  (codes, arguments.label, across, up)))
+            write_labels(panel, codes, arguments.label, across, up)
     return present
 
 
 def labels_of_axes(plane, units, colouring):
-    across, up = name_axes(plane, units)
-    return (up, colouring.label) if colouring.has_line(plane) else (across, up)
+    lines = colouring.lines(plane)
+    return (name_axes(lines[0], units)[1], colouring.label) if lines else name_axes(plane, units)
 
 
 def draw_sheet(planes, columns, left_out, layers, arguments, dpi):
     units, (colouring, *marks) = arguments.units, layers
-    axes = [axes_of_plane(plane, units, arguments.boundary is not None) for plane in planes]
+    axes = [axes_in_picture(plane, arguments, colouring) for plane in planes]
+    lines = colouring.lines(planes[0])
     title = heading(planes) if arguments.title is None else arguments.title
     second = ",  ".join([subtitle(planes, units)] + [left_out] * bool(left_out))
-    sheet = Sheet((plain(title), second), panel_titles(planes, units), columns, dpi,
-                  [axes_in_picture(plane, each, colouring) for plane, each in zip(planes, axes)])
+    sheet = Sheet((plain(title), second), panel_titles(planes, units), columns, dpi, axes,
+                  above=height_of_strips(len(lines)) if lines else 0)
     present = draw_panels(sheet.panels.flat, sheet.pixels, planes, axes, arguments, layers)
     sheet.name_axes(*labels_of_axes(planes[0], units, colouring))
-    if isinstance(colouring, Field) and VALUE in present and not colouring.has_line(planes[0]):
+    if isinstance(colouring, Field) and VALUE in present and not lines:
         sheet.add_colour_bar(colouring)
     entries, explanation = colouring.legend(present, ground_word(planes[0].file))
+    entries = (curve_entries(sheet.panels.flat[0], colouring) if lines else []) + entries
     entries += [mark.legend_entry() for mark in marks]
     if arguments.boundary:
         entries.append(Line2D([], [], linestyle="none", marker="o", markersize=3, color="black",
@@ -140,18 +137,10 @@ def draw_into(ax, plane, layers, arguments):
     """Draws one spectrum without a legend; a point of the picture per pixel of the axes."""
     size = ax.get_window_extent()
     pixels = max(1, round(max(size.width, size.height)))
-    axes = axes_of_plane(plane, arguments.units, arguments.boundary is not None)
+    axes = axes_in_picture(plane, arguments, layers[0])
     draw_panels([ax], pixels, [plane], [axes], arguments, layers)
     across, up = labels_of_axes(plane, arguments.units, layers[0])
     ax.set(xlabel=across, ylabel=up, title=arguments.title or "")
-
-
-def in_lines(planes, columns, most):
-    """Returns the planes of the panels and the number of their columns, with a panel for each value along an axis of few
-    values."""
-    lines = [line for plane in planes for line in plane.lines(most)]
-    return (planes, columns) if len(lines) > MOST_PANELS else (lines, columns if len(lines) == len(planes) else
-                                                               math.ceil(math.sqrt(len(lines))))
 
 
 def colouring_of(arguments):
@@ -163,6 +152,7 @@ def colouring_of(arguments):
 def draw(path, arguments, dpi, ax=None):
     """Draws into the given axes, or without them a sheet, which is returned with the number of its spectra and the
     lines of a report: what is left out, and the counts of points that an option marks."""
+    expect_empty(ax)
     marks = [Misjudged()] * bool(arguments.practice)
     marks += [] if arguments.friction_demand is None else [Slipping(arguments.friction_demand)]
     layers = [colouring_of(arguments), *marks]
@@ -170,8 +160,6 @@ def draw(path, arguments, dpi, ax=None):
     with open_result(path, SPECTRUM, tuple(fields)) as file:
         expect_size(file, arguments.units)
         planes, columns, left_out = sheet_of(file, arguments, 1 if ax is not None else MOST_PANELS)
-        if arguments.field is not None:
-            planes, columns = in_lines(planes, columns, 1 if ax is not None else MOST_LINES)
         for layer in layers:
             layer.add(planes)
         if ax is not None:
@@ -225,8 +213,8 @@ def read_arguments(argv):
     shown.add_argument("--verdict", action="store_true",
                        help="draw what stands, what topples and what is unknown: undecided, or not computed")
     shown.add_argument("--field", metavar="NAME",
-                       help="draw the values of a field of the file, such as peak; as lines if only one axis varies, or in "
-                            "panels of lines if one has few values")
+                       help="draw the values of a field of the file, such as peak; as curves if only one axis varies, or "
+                            "another one has few values")
     parser.add_argument("--boundary", metavar="BOUNDARY.h5",
                         help="overlay the flips of the verdict; written by overturn boundary")
     parser.add_argument("--practice", action="store_true",
