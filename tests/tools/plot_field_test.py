@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 from plot_spectrum_test import F_MINUS, NOT_COMPUTED, S, S_PLUS, U0_MINUS, UNDECIDED, where
 from recorded_spectra_test import Recorded
 import overturn
+from overturn.colourings import share_text
 from overturn.plot.curves import places_of_markers
 from overturn.regions import STANDS, TOPPLES
 
@@ -42,8 +43,19 @@ class TestTheVerdict(Field):
         self.spectrum([np.repeat([S, S_PLUS, F_MINUS, U0_MINUS, UNDECIDED, NOT_COMPUTED], 4)])
         np.testing.assert_allclose(self.shares("--verdict"), 1 / 3, atol=0.01)
         words = self.words("--verdict")
-        self.assertEqual([word for word in words if word in ("stands", "topples", "unknown")], ["stands", "topples", "unknown"])
+        for word in ("stands  33 %", "topples  33 %", "unknown  33 %"):
+            self.assertIn(word, words)
         self.assertNotIn("At the end of the pulse", words)
+
+    def test_has_a_share_that_is_0_or_100_per_cent_only_of_none_or_all(self):
+        for count, total, words in ((0, 9, "0 %"), (9, 9, "100 %"), (1, 3, "33 %"), (1, 1000, "0.1 %"), (3, 10**6, "0.0003 %"),
+                                    (999, 1000, "99.9 %"), (10**6 - 3, 10**6, "99.9997 %"), (1, 10**12, "0.0000000001 %"),
+                                    (10**12 - 1, 10**12, "99.9999999999 %")):
+            self.assertEqual(share_text(count, total), words)
+
+    def test_lists_what_is_unknown_also_if_there_is_none(self):
+        self.spectrum(np.resize([S, F_MINUS], (1, 1, 10, 10)))
+        self.assertIn("unknown  0 %", self.words("--verdict"))
 
     def test_is_unknown_outside_what_was_computed(self):
         self.spectrum([[S] * 14], frequency=np.append(np.arange(1.0, 14), 17))

@@ -21,6 +21,13 @@ UNSIGNED = colors.LinearSegmentedColormap.from_list("values", colormaps["YlGnBu"
 SIGNED = colormaps["RdBu"]
 
 
+def share_text(count, total):
+    """Returns a share in per cent, with as many digits as needed so that it is 0 or 100 only of none or all."""
+    share = 100 * count / total
+    return next(f"{share:.{digits}f} %" for digits in range(18)
+                if count in (0, total) or 0 < float(f"{share:.{digits}f}") < 100)
+
+
 class Regions:
     FIELDS = ()  # that it needs beside the region
 
@@ -44,8 +51,14 @@ class Verdicts(Regions):
     def picture(self, plane, codes, up, across):
         return super().picture(plane, VERDICT_OF[codes], up, across)
 
+    def add(self, planes):
+        """Counts the points of each verdict."""
+        counts = sum(np.bincount(VERDICT_OF[plane.read("region", rows)].ravel(), minlength=256)
+                     for plane in planes for rows in plane.tiles())
+        self.shares = {code: share_text(int(counts[code]), int(counts.sum())) for code in VERDICTS}
+
     def legend(self, codes, ground):
-        return [patch(code, name) for code, name in VERDICTS.items() if code in codes], None
+        return [patch(code, f"{name}  {self.shares[code]}") for code, name in VERDICTS.items()], "Share of the points"
 
 
 class Field(Regions):
