@@ -110,6 +110,14 @@ class TestAHistoryUnderARecord(InAFolder):
             (self.folder / "history.h5").unlink()
             self.overturn("history", "history.h5")
 
+    def test_has_all_digits_of_a_given_number(self):
+        self.under_a_record(pga=0.46845)
+        with open_history(self.folder / "history.h5") as file:
+            self.assertIn("PGA = 0.46845 g", histories.describe(file))
+        for name, value, text in (("pga", 0.1 + 0.2, "0.3"), ("pga", 1 / 3, "0.3333333"), ("size", 1 / 3, "0.3333"),
+                                  ("size", 2.34567, "2.34567"), ("frequency", 3.0, "3")):
+            self.assertEqual(histories.number_text(name, value), text)
+
     def test_is_in_seconds_and_in_alpha(self):
         self.under_a_record()
         p = np.sqrt(3 * 9.81 / (4 * 3.0))

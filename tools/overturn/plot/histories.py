@@ -245,6 +245,13 @@ def point_of(file, units):
             *["frequency_parameter"] * ("frequency_parameter" in file.attrs)]
 
 
+def number_text(name, value):
+    """Returns a value in up to seven digits if that is what the job gives; otherwise in four, or seven of a strength, between
+    which the verdict may flip."""
+    full = f"{value:.7g}"
+    return full if float(full) == value or name in STRENGTHS else f"{value:.4g}"
+
+
 def is_certain(file):
     """Whether the true motion is that of the curve, which is in double precision."""
     return bool(file.attrs["curve_is_certain"])
@@ -260,7 +267,7 @@ def describe(file, units=JOB):
         outcome += "; the curve is uncertain"
     threshold = r"\alpha" if is_linear(file) else r"\tan\alpha"
     shown = point_of(file, units)
-    point = [f"{worded(attributes, symbol).replace('{threshold}', threshold)} = {attributes[name]:.4g}{unit}, "
+    point = [f"{worded(attributes, symbol).replace('{threshold}', threshold)} = {number_text(name, attributes[name])}{unit}, "
              for name, symbol, unit in AXES if name in shown]
     if "frequency_parameter_minus" in attributes and "frequency_parameter" in shown:
         minus = attributes["frequency_parameter_minus"]
