@@ -13,7 +13,7 @@ import numpy as np
 from tool import JOBS, TOOLS, InOneFolder, run_overturn  # first: adds the package to the path
 import overturn
 from matplotlib import image, pyplot
-from overturn.plot import spectra
+from overturn.plot import histories, spectra
 from overturn.regions import CODES, LEFT_OUT
 
 FEW = [f"plane.{axis}.count=20" for axis in ("frequency", "amplitude")]
@@ -69,6 +69,23 @@ class TestPicturesFromPython(InOneFolder):
         self.assertIn("time since the start of the pulse", panels[2].get_xlabel())
         with self.assertRaisesRegex(overturn.ToolError, "limited to 1"):
             overturn.plot.spectrum(self.path("spectrum"), ax=pyplot.figure().add_subplot())
+
+    def test_of_several_tilts_in_the_same_axes_keep_the_larger_limits_and_differ(self):
+        run_overturn(self.folder, "history", JOBS / "smoke.toml", "other.h5", "plane.frequency=3", "plane.amplitude=1.1")
+        for names in (("history", "other"), ("other", "history")):
+            ax = pyplot.figure().add_subplot()
+            alone = [overturn.plot.history(self.path(name), ax=pyplot.figure().add_subplot()) for name in names]
+            for name in names:
+                overturn.plot.history(self.path(name), ax=ax)
+            for limits in ("get_xlim", "get_ylim"):
+                each = [getattr(axes, limits)() for axes in alone]
+                self.assertEqual(getattr(ax, limits)(), (min(each)[0], max(high for _, high in each)))
+            curves = histories.curves_in(ax)
+            self.assertEqual(len({curve.get_color() for curve in curves}), 2)
+            entries = [text.get_text() for text in ax.get_legend().get_texts()]
+            self.assertEqual(len(entries), len({*entries}))
+            self.assertLessEqual({curve.get_label() for curve in curves}, {*entries})
+            self.assertFalse({alone[0].lines[0].get_label()} & {text.get_text() for text in alone[0].get_legend().get_texts()})
 
     def codes_of(self, result):
         """Returns the region codes of the panels of a picture."""

@@ -9,12 +9,11 @@ from types import SimpleNamespace
 
 import numpy as np
 from matplotlib import pyplot
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 from overturn.captions import (file_name, ground_text, ground_word, is_linear, is_recorded, plain, slenderness_text,
                                title_of)
 from overturn.motion_words import worded
 from overturn.output_file import save
+from overturn.plot import curves
 from overturn.plot.headings import Heading
 from overturn.regions import REGIONS, UNDECIDED, meaning_of
 from overturn.result_file import HISTORY, damage_reported, open_result
@@ -40,6 +39,8 @@ peaks of a record are missed."""
 
 INK = "#1f3b57"
 LIMIT = "#c8422b"
+COLOURS = (INK, *curves.COLOURS[2:])  # of several tilts in the same axes
+TILT = "tilt"
 SLIPS = "#f3d9a4"
 MARKS = {"uplift": ("^", "uplift"), "rest": ("s", "at rest"), "fall": ("X", "fall")}
 MOST_IMPACT_LINES = 60
@@ -146,8 +147,13 @@ class History:
                 "q": (0, self.largest_rate**2)}.get(name, ())
 
 
-def draw_panel(axes, history, name, label):
-    """Draws a quantity; returns legend entries of its dashed lines."""
+def curves_in(axes):
+    """Returns the tilts in axes of a caller."""
+    return [line for line in axes.lines if str(line.get_gid()).startswith(TILT)]
+
+
+def draw_panel(axes, history, name, label, /, **curve):
+    """Draws a quantity; `curve` are properties of its line."""
     values = history.values[name]
     axes.axvspan(0, min(history.end_of_ground_motion, history.time[-1]), color="#eeeeee", zorder=0)
     impacts = history.impacts()
@@ -157,8 +163,8 @@ def draw_panel(axes, history, name, label):
     linewidth = 0.7 if name in ("ground", "friction_demand") and history.is_recorded else 1.3
     if name in ("friction_demand", "slide") and history.slips.any():
         axes.fill_between(history.time, 0, 1, where=history.slips, transform=axes.get_xaxis_transform(),
-                          color=SLIPS, linewidth=0, zorder=0.5)
-    axes.plot(history.time, values, color=INK, linewidth=linewidth, zorder=3)
+                          color=SLIPS, linewidth=0, zorder=0.5, label="the block slips" if name == "slide" else None)
+    axes.plot(history.time, values, **{"color": INK, "linewidth": linewidth, "zorder": 3, **curve})
     known = values[np.isfinite(values)] if np.isfinite(values).any() else np.zeros(1)
     spread = np.ptp(known) or 1
     low, high = known.min() - 0.08 * spread, known.max() + 0.08 * spread
@@ -166,7 +172,7 @@ def draw_panel(axes, history, name, label):
     shown = [limit for limit in history.limits(name)
              if low - spread <= limit <= high + spread]  # a distant limit would flatten the curve
     for limit in shown:
-        axes.axhline(limit, zorder=2, **dashed)
+        axes.axhline(limit, zorder=2, label=LIMITS.get(name, LIMITS_OF_UPRIGHT), **dashed)
         low, high = min(low, limit - 0.08 * spread), max(high, limit + 0.08 * spread)
     axes.axhline(0, color="0.6", linewidth=0.6, zorder=1)
     axes.set_ylim(low, high)
@@ -175,40 +181,36 @@ def draw_panel(axes, history, name, label):
     name_ticks(axes.yaxis)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
-    slips = [Patch(color=SLIPS, label="the block slips")] * (name == "slide" and history.slips.any())
-    return slips + [Line2D([], [], label=LIMITS.get(name, LIMITS_OF_UPRIGHT), **dashed)] * bool(shown)
 
 
-def explain(axes, handles, **place):
-    if handles:
-        axes.legend(handles=handles, fontsize=8, handletextpad=0.4, **place)
+def explain(axes, **place):
+    """Adds a legend of all that has a label; of curves, if there are several."""
+    entries = {label: handle for handle, label in zip(*axes.get_legend_handles_labels())
+               if handle not in curves_in(axes) or len(curves_in(axes)) > 1}
+    if entries:
+        axes.legend(entries.values(), entries, fontsize=8, handletextpad=0.4, **place)
 
 
 def mark_events(axes, history):
-    """Marks uplift, rest and overturning on the curve of the angle, and returns their legend entries. Under a record,
-    impacts are ticks below it, because they are often too many for lines."""
-    handles = []
+    """Marks uplift, rest and overturning on the curve of the angle. Under a record, impacts are ticks below it, because
+    they are often too many for lines."""
     for kind, (marker, name) in MARKS.items():
         points = [(when, angle) for when, what, angle in history.events if what == kind]
         if points:
             axes.plot(*zip(*points), linestyle="none", marker=marker, markersize=6,
-                      markerfacecolor="white", markeredgecolor=LIMIT, zorder=4, clip_on=False)
-            handles.append(Line2D([], [], linestyle="none", marker=marker, markersize=6,
-                                  markerfacecolor="white", markeredgecolor=LIMIT, label=name))
+                      markerfacecolor="white", markeredgecolor=LIMIT, zorder=4, clip_on=False, label=name)
     impacts = history.impacts()
     count = len(impacts)
     if count:
-        style = {"color": "0.75", "linewidth": 0.8}
+        many = count > MOST_IMPACT_LINES and not history.is_recorded
+        label = f"{count} impact{'s' * (count > 1)}{', too many to mark' * many}"
         if history.is_recorded:
-            style = {"color": "0.35", "linestyle": "none", "marker": "|", "markersize": 7,
-                     "markeredgewidth": 0.6}
             low, high = axes.get_ylim()
             axes.set_ylim(low - 0.08 * (high - low), high)
-            axes.plot(impacts, np.full(count, 0.04), transform=axes.get_xaxis_transform(), **style)
-        many = count > MOST_IMPACT_LINES and not history.is_recorded
-        handles.append(Line2D([], [], **style, label=f"{count} impact{'s' * (count > 1)}"
-                                                     f"{', too many to mark' * many}"))
-    return handles
+            axes.plot(impacts, np.full(count, 0.04), transform=axes.get_xaxis_transform(), color="0.35", linestyle="none",
+                      marker="|", markersize=7, markeredgewidth=0.6, label=label)
+        else:
+            axes.plot([], [], color="0.75", linewidth=0.8, label=label)
 
 
 def word_of_record(file, key):
@@ -257,6 +259,14 @@ def is_certain(file):
     return bool(file.attrs["curve_is_certain"])
 
 
+def point_words(file, units=JOB):
+    """Returns the quantities of the point, with their values."""
+    attributes, shown = file.attrs, point_of(file, units)
+    threshold = r"\alpha" if is_linear(file) else r"\tan\alpha"
+    return {name: f"{worded(attributes, symbol).replace('{threshold}', threshold)} = "
+                  f"{number_text(name, attributes[name])}{unit}" for name, symbol, unit in AXES if name in shown}
+
+
 def describe(file, units=JOB):
     """Returns the point and its outcome in one line."""
     attributes = file.attrs
@@ -265,18 +275,15 @@ def describe(file, units=JOB):
     outcome = f"{meaning_of(region, ground_word(file))} ({REGIONS[region][0]})" if is_decided else "undecided"
     if not is_certain(file):
         outcome += "; the curve is uncertain"
-    threshold = r"\alpha" if is_linear(file) else r"\tan\alpha"
-    shown = point_of(file, units)
-    point = [f"{worded(attributes, symbol).replace('{threshold}', threshold)} = {number_text(name, attributes[name])}{unit}, "
-             for name, symbol, unit in AXES if name in shown]
-    if "frequency_parameter_minus" in attributes and "frequency_parameter" in shown:
+    point = point_words(file, units)
+    if "frequency_parameter_minus" in attributes and "frequency_parameter" in point:
         minus = attributes["frequency_parameter_minus"]
-        point[-1:] = [point[-1].replace(", ", " (+), "), f"$p$ = {minus:.4g} 1/s (−), "]
+        point["frequency_parameter"] += f" (+), $p$ = {minus:.4g} 1/s (−)"
     alpha = ", ".join((slenderness_text(attributes[name], units) if units == PHYSICAL
                        else rf"$\alpha$ = {attributes[name]:.4g} rad") + side
                       for name, side in zip(slendernesses(file), (" (+)", " (−)") if len(slendernesses(file)) > 1
                                             else ("",)))
-    return ("".join([*(plain(word, 60) + ", " for word in motion_words(file)), *point]) +
+    return ("".join(word + ", " for word in [*(plain(word, 60) for word in motion_words(file)), *point.values()]) +
             rf"{alpha}, $r$ = {attributes['restitution']:.4g}"
             + (rf", $\mu$ = {attributes['friction']:.4g}" if "friction" in attributes else "") + ": "
             f"{outcome}")
@@ -296,11 +303,11 @@ def draw_figure(file, history, units):
     figure, panels = pyplot.subplots(len(history.panels), 1, sharex=True, figsize=(9, height),
                                      height_ratios=[share for _, _, share in history.panels])
     for axes, (name, label, _) in zip(panels, history.panels):
-        handles = draw_panel(axes, history, name, label)
+        draw_panel(axes, history, name, label)
         axes.yaxis.set_label_coords(-0.075, 0.5)
         if name == "angle":
-            handles += mark_events(axes, history)
-        explain(axes, handles, loc="lower right", bbox_to_anchor=(1, 0.98), borderpad=0, frameon=False,
+            mark_events(axes, history)
+        explain(axes, loc="lower right", bbox_to_anchor=(1, 0.98), borderpad=0, frameon=False,
                 ncols=len(MARKS) + 2)
     name_time(panels[-1], file, history)
     words.write(figure, 0.18, (0.21, 0.3956))
@@ -317,11 +324,17 @@ def draw(path, arguments, ax=None):
         if ax is None:
             return draw_figure(file, shown, arguments.units).axes
         label = next(label for name, label, _ in shown.panels if name == "angle")
-        handles = draw_panel(ax, shown, "angle", label)
+        number = len(curves_in(ax))
+        before = [ax.get_xlim(), ax.get_ylim()] if number else []
+        draw_panel(ax, shown, "angle", label, color=COLOURS[number % len(COLOURS)], gid=f"{TILT} {number}",
+                   label=", ".join(point_words(file, arguments.units).values()))
+        mark_events(ax, shown)
         if not is_certain(file):
-            handles += [Line2D([], [], linestyle="none", label="the curve is uncertain")]
-        explain(ax, mark_events(ax, shown) + handles)
+            ax.plot([], [], linestyle="none", label="the curve is uncertain")
         name_time(ax, file, shown)
+        for set_limits, limits, new in zip((ax.set_xlim, ax.set_ylim), before, (ax.get_xlim(), ax.get_ylim())):
+            set_limits(min(*limits, *new), max(*limits, *new))
+        explain(ax)
         return ax
 
 
@@ -330,7 +343,7 @@ def history(result, *, start: float = 0, until: float = np.inf, units: str = "jo
 
     result: the path of a file, or the whole data set that overturn.open() returned for it. start, until: times
     [1/p]; under a record or in physical units [s]. units: "job", or "physical" for s and degrees. ax:
-    axes of Matplotlib to draw the tilt into.
+    axes of Matplotlib to draw the tilt into, with a legend, beside the tilts that they have.
 
     Returns a list of axes, from the ground motion down, or ax. Raises overturn.ToolError."""
     return draw(result, SimpleNamespace(start=start, until=until, units=units), ax)
