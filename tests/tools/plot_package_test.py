@@ -176,8 +176,12 @@ class TestPicturesFromPython(InOneFolder):
         self.assertEqual(sorted(CODES.values()), list(range(11)))
 
     def test_of_another_kind_of_file_are_refused(self):
-        with self.assertRaisesRegex(overturn.ToolError, "is not a spectrum"):
-            overturn.plot.spectrum(self.path("boundary"))
+        for draw, kind, name, tool in (
+                (overturn.plot.spectrum, "spectrum", "boundary", "boundary written by overturn boundary"),
+                (overturn.plot.boundary, "boundary", "spectrum", "spectrum written by overturn run"),
+                (overturn.plot.boundary, "boundary", "history", "history written by overturn history")):
+            with self.assertRaisesRegex(overturn.ToolError, f"is not a {kind} .* but a {tool}. Draw it with plot_{name}.$"):
+                draw(self.path(name))
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@ FORMAT, FORMER_FORMAT = 5, 4  # in the former, the field friction_demand is call
 SPECTRUM, BOUNDARY, HISTORY, STUDY = "overturning spectrum", "overturning boundary", "rocking history", "accuracy study"
 KINDS = {SPECTRUM: "a spectrum written by overturn run", BOUNDARY: "a boundary written by overturn boundary",
          HISTORY: "a history written by overturn history", STUDY: "a study written by overturn accuracy"}
+TOOLS = {SPECTRUM: "plot_spectrum", BOUNDARY: "plot_boundary", HISTORY: "plot_history", STUDY: "plot_accuracy"}
 ROWS = 64  # to be read at a time, or more, because a plane may not fit in memory
 NOT_A_VARIABLE = "This is a netCDF dimension but not a netCDF variable"
 ATTRIBUTES_OF_NETCDF = ("CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "_Encoding", "_FillValue", "coordinates")
@@ -182,8 +183,10 @@ def open_file(path, kind=None):
         raise type(error)(f"cannot read \"{path}\": {error.strerror or error}.") from error
     with contextlib.ExitStack() as stack:
         stack.enter_context(file)
-        if text_of(file, "kind") not in ([kind] if kind else KINDS):
-            raise ValueError(f"\"{path}\" is not {KINDS.get(kind, 'a result of overturn')}.")
+        found = text_of(file, "kind")
+        if found not in ([kind] if kind else KINDS):
+            advice = f", but {KINDS[found]}. Draw it with {TOOLS[found]}" if found in KINDS else ""
+            raise ValueError(f"\"{path}\" is not {KINDS.get(kind, 'a result of overturn')}{advice}.")
         if (version := file.attrs.get("format_version", 1)) not in (FORMAT, FORMER_FORMAT):
             writer = "overturn 2.0" if version == 3 else "the overturn that wrote it"
             advice = "Use a newer overturn" if version > FORMAT else (
