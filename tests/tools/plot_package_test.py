@@ -87,6 +87,24 @@ class TestPicturesFromPython(InOneFolder):
             self.assertLessEqual({curve.get_label() for curve in curves}, {*entries})
             self.assertFalse({alone[0].lines[0].get_label()} & {text.get_text() for text in alone[0].get_legend().get_texts()})
 
+    def test_of_a_boundary_end_above_its_highest_flip_and_state_the_end_of_the_search(self):
+        def drawn(last):
+            run_overturn(self.folder, "boundary", JOBS / "smoke.toml", f"to_{last}.h5",
+                         f"plane.amplitude={{first=0.5, last={last}, count=20}}", "plane.frequency={first=5, last=6, count=5}")
+            axes = overturn.plot.boundary(self.path(f"to_{last}"))
+            with overturn.open(self.path(f"to_{last}")) as result:
+                highest = float(result.flip_amplitude.max())
+            return highest, axes.get_ylim()[1], " ".join(text.get_text() for text in axes.figure.texts)
+        highest, top, words = drawn(40)
+        self.assertTrue(1.05 * highest < top < 1.5 * highest, (highest, top))
+        self.assertIn("no flips found above the axis, up to 40", words)
+        highest, top, words = drawn(1.1 * highest)
+        self.assertGreater(top, 1.1 * highest)
+        self.assertNotIn("no flips", words)
+        self.assertNotIn("plane.", words)  # the axes show these settings
+        axes = overturn.plot.boundary(self.path("to_40"), title="Mine")
+        self.assertEqual(axes.figure.texts[0].get_text(), "Mine")
+
     def codes_of(self, result):
         """Returns the region codes of the panels of a picture."""
         shown = []

@@ -285,10 +285,10 @@ class TestTheWords(Picture):
 
     def test_settings_follow_the_title_and_are_shortened(self):
         self.spectrum([[S]])
-        settings = "title=\"A title\"\nscene.theory=\"linear\"\nplane.amplitude={" + 60 * "a" + "}"
-        settings += "\noutput.fields=[\"region\"]\noutput = {}"
+        settings = "title=\"A title\"\nscene.theory=\"linear\"\nnumerics.tolerance={" + 60 * "a" + "}"
+        settings += "\nplane.amplitude={first=1,last=2}\noutput.fields=[\"region\"]\noutput = {}"
         self.change(lambda file: file.update({"run/job_overrides": np.frombuffer(settings.encode(), np.uint8)}))
-        self.assertIn("A title, with scene.theory=\"linear\", plane.amplitude={" + 30 * "a" + "…",
+        self.assertIn("A title, with scene.theory=\"linear\", numerics.tolerance={" + 27 * "a" + "…",
                       [word.replace("&quot;", '"') for word in self.words()])
 
     def test_another_title_replaces_that_of_the_job(self):

@@ -163,7 +163,7 @@ class TestAPhysicalBoundary(Sized):
             (self.folder / "boundary.h5").unlink()
 
     def test_is_shaded_over_its_periods(self):
-        # A pulse of 0.3 s overturns the block at no scanned amplitude, one of 1.9 s at most.
+        # A pulse of 0.3 s overturns the block at no scanned amplitude, one of 1.9 s at most. The axis ends above its flips.
         self.overturn("boundary", "boundary.h5", *DIMENSIONLESS, "plane.frequency.values=[1.2,7.5]",
                       "plane.amplitude.last=6")
         how = {"tool": "plot_boundary", "file": "boundary.h5"}
@@ -173,7 +173,7 @@ class TestAPhysicalBoundary(Sized):
         safe, unsafe = ([np.isclose(end, colors.to_rgb(shade), atol=1 / 255).all(axis=2).mean()
                          for end in ends] for shade in (REGIONS[STANDS][2], REGIONS[TOPPLES][2]))
         self.assertGreater(safe[0], 0.95)
-        self.assertGreater(unsafe[1], 0.7)
+        self.assertGreater(unsafe[1], 0.5)
         picture = self.svg(*PHYSICAL, **how)
         for words in ("pulse period [s]", "PGA [g]", "one-sine pulse,  α = 18.43°"):
             self.assertIn(f">{words}", picture)

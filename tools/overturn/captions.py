@@ -38,13 +38,14 @@ def told_apart(texts, width):
 
 def title_of(file, shown=()):
     """Returns the job's title and its overrides, which may contradict it, except overrides of the
-    title, of the output, which no picture depends on, and of the tables in `shown`, whose values the picture shows
-    elsewhere."""
+    title, of the output, which no picture depends on, and of the tables or quantities (table.name) in `shown`, whose values
+    the picture shows elsewhere."""
     title = file.text("title")
     if title:
         overrides = file.job_text("job_overrides").splitlines()
-        others = [shortened(words, 48) for words in overrides
-                  if words.split("=")[0].split(".")[0].strip() not in ("title", "output", *shown)]
+        keys = [words.split("=")[0].strip().split(".") for words in overrides]
+        others = [shortened(words, 48) for words, key in zip(overrides, keys)
+                  if not {key[0], ".".join(key[:2])} & {"title", "output", *shown}]
         title += (", with " + ", ".join(others)) * bool(others)
     return title
 
@@ -226,7 +227,8 @@ def unfinished_words(file):
 def heading(planes):
     """Returns the job's title; under records without a title, the name of the record."""
     file = planes[0].file
-    title = title_of(file)
+    quantities = [*file.dimensions, *(["along"] if "flip_value" in file else []), *planes[0].quantities()]
+    title = title_of(file, [f"{table}.{name}" for table in ("plane", "block", "boundary") for name in quantities])
     if title or not is_recorded(file):
         return title
     shown = {plane.value("motion") for plane in planes}

@@ -29,6 +29,11 @@ def add_choice_arguments(parser):
                         help="the same for any dimension of the file, such as height=0; repeatable")
 
 
+def add_title_argument(parser):
+    parser.add_argument("--title", help="title of the picture (default: the job's title, or the "
+                                        "names of its records)")
+
+
 def option_of(dimension):
     name = dimension.removesuffix("_of_maximum").removeprefix("velocity_")
     return f"--{name}" if name in OPTIONS else f"--index {dimension}=INDEX"

@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from overturn import regions
 from overturn.captions import ground_word, heading, is_recorded, panel_titles, plain, subtitle
-from overturn.choice import add_choice_arguments, sheet_of
+from overturn.choice import add_choice_arguments, add_title_argument, sheet_of
 from overturn.motion_words import worded
 from overturn.output_file import save
 from overturn.plot.bands import set_axes
@@ -36,7 +36,8 @@ example:
 Each flip of the verdict is a point; consecutive ones along the frequency look like a line. The
 lowest flip of each frequency, the minimum overturning amplitude, is bold; a frequency at which the
 first amplitude of the scan overturns the block has a triangle instead. Overturning amplitudes are
-shaded. Boundaries of several slendernesses, restitutions or records are plotted as a grid of up to
+shaded. The vertical axis ends a little above the highest flip; the line below the title then states up to where no other
+one was found. Boundaries of several slendernesses, restitutions or records are plotted as a grid of up to
 100 planes. Under a record, there are always strips that are narrower than the steps of the scan: what
 is shaded as safe may contain them."""
 
@@ -46,6 +47,7 @@ VERDICTS[regions.SAFE], VERDICTS[regions.UNSAFE], VERDICTS[regions.NOT_COMPUTED]
 SHADES = {SAFE: regions.REGIONS[regions.STANDS][2], UNSAFE: regions.REGIONS[regions.TOPPLES][2],
           UNDECIDED: regions.REGIONS[regions.UNDECIDED][2], NOT_COMPUTED: "none", NOT_SCANNED: "white"}
 FIRST, OTHERS, DOUBTFUL = "black", "#1f3b57", regions.REGIONS[regions.UNDECIDED][2]
+LONG, ABOVE = 0.75, 0.06  # shares of a vertical axis: up to which it is shortened, and above the highest flip
 ROWS = 1400  # of the shading: half a pixel at the default size
 COLUMN = 4  # height over width of the panel of a single block and frequency
 HEIGHT = 6.6  # of the figure of one plane [inches], with one line each for its title and for what is below it
@@ -71,6 +73,12 @@ class Lines:
         self.has_undecided = (codes == regions.UNDECIDED).any(axis=(0, 1))
         self.overturns_at_once = self.below[0] == UNSAFE
 
+    def end_at(self, share):
+        """Ends the vertical axis at a share of it."""
+        first, last = self.up.edges[[0, -1]]
+        top = self.up.value_at(first + share * (last - first))
+        self.up = Axis(np.append(self.up.values[self.up.values < top], top), self.up.scale, is_to_scale=True)
+
     def minimum(self):
         """Returns the minimum overturning amplitude; NaN where there is none."""
         found = (self.below[0] == SAFE) & (self.above[0] == UNSAFE)
@@ -89,6 +97,18 @@ class Lines:
         verdicts = np.take_along_axis(np.concatenate([self.below[:1], self.above]), count, axis=0)
         is_scanned = (self.scan[0] <= amplitudes) & (amplitudes <= self.scan[1])
         return np.where(is_scanned[:, None], verdicts, NOT_SCANNED)
+
+
+def end_above_flips(all_lines):
+    """Ends the vertical axes a little above the highest flip if they become much shorter and every verdict is known from
+    there to the end of the scan. Returns words on that, or none."""
+    highest = max(np.nanmax(lines.up.share(lines.flips), initial=0) for lines in all_lines)
+    last = [lines.verdicts(np.array([lines.scan[1]])) for lines in all_lines]
+    if not 0 < highest < LONG - ABOVE or np.isin(last, UNDECIDED).any():
+        return []
+    for lines in all_lines:
+        lines.end_at(highest + ABOVE)
+    return [f"no flips found above the axis, up to {min(lines.scan[1] for lines in all_lines):.4g}"]
 
 
 def shade(panel, lines):
@@ -165,12 +185,9 @@ def note_on_strips(plane, lines):
             "which are not drawn.")
 
 
-def draw_sheet(planes, columns, left_out, units):
+def draw_sheet(planes, all_lines, words, columns, units):
     """Draws several boundaries and returns their axes."""
-    all_lines = [Lines(plane, units) for plane in planes]
-    second = ",  ".join([subtitle(planes, units)] + [left_out] * bool(left_out))
-    sheet = Sheet((plain(heading(planes)), second), panel_titles(planes, units), columns, 120,
-                  [(lines.across, lines.up) for lines in all_lines])
+    sheet = Sheet(words, panel_titles(planes, units), columns, 120, [(lines.across, lines.up) for lines in all_lines])
     for panel, lines in zip(sheet.panels.flat, all_lines):
         draw_panel(panel, lines)
     sheet.name_axes(*name_axes(planes[0], units))
@@ -182,9 +199,9 @@ def draw_sheet(planes, columns, left_out, units):
     return list(sheet.panels.flat[:len(planes)])
 
 
-def draw_column(plane, lines, units):
+def draw_column(plane, lines, words, units):
     """Draws a boundary of a single size or frequency."""
-    words = Heading(plain(heading([plane])), subtitle([plane], units), 5.1, SIZES)
+    words = Heading(*words, 5.1, SIZES)
     height = HEIGHT + words.extra
     figure, share = pyplot.figure(figsize=(6, height)), HEIGHT / height
     panel = figure.add_axes((0.13, 0.085 * share, 0.24, 0.755 * share))
@@ -201,11 +218,10 @@ def draw_column(plane, lines, units):
     return panel
 
 
-def draw_figure(plane, units):
-    lines = Lines(plane, units)
+def draw_figure(plane, lines, words, units):
     if lines.is_column:
-        return draw_column(plane, lines, units)
-    words = Heading(plain(heading([plane])), subtitle([plane], units), 8.3, SIZES)
+        return draw_column(plane, lines, words, units)
+    words = Heading(*words, 8.3, SIZES)
     height = HEIGHT + words.extra
     (figure, panel), share = pyplot.subplots(figsize=(9.2, height)), HEIGHT / height
     draw_panel(panel, lines)
@@ -230,27 +246,31 @@ def draw(path, arguments, ax=None):
     with open_result(path, BOUNDARY) as file:
         expect_size(file, arguments.units)
         planes, columns, left_out = sheet_of(file, arguments, 1 if ax is not None else MOST_PANELS)
+        all_lines = [Lines(plane, arguments.units) for plane in planes]
         if ax is not None:
-            draw_panel(ax, Lines(planes[0], arguments.units))
+            draw_panel(ax, all_lines[0])
             across, up = name_axes(planes[0], arguments.units)
-            ax.set(xlabel=across, ylabel=up)
+            ax.set(xlabel=across, ylabel=up, title=arguments.title or "")
             return ax
+        title = heading(planes) if arguments.title is None else arguments.title
+        notes = [left_out] * bool(left_out) + end_above_flips(all_lines)
+        words = plain(title), ",  ".join([subtitle(planes, arguments.units), *notes])
         if len(planes) > 1:
-            return draw_sheet(planes, columns, left_out, arguments.units)
-        return draw_figure(planes[0], arguments.units)
+            return draw_sheet(planes, all_lines, words, columns, arguments.units)
+        return draw_figure(planes[0], all_lines[0], words, arguments.units)
 
 
 def boundary(result, *, motion: int | None = None, slenderness: int | None = None,
-             restitution: int | None = None, index: Mapping[str, int] = {}, units: str = "job", ax=None):
+             restitution: int | None = None, index: Mapping[str, int] = {}, units: str = "job", title: str | None = None, ax=None):
     """Draws a boundary, as tools/plot_boundary does.
 
     result: the path of a file, or the whole data set that overturn.open() returned for it. motion, slenderness,
     restitution: indices, counted from 0, of one boundary of several. index: the same for any dimensions, such as
-    {"height": 0}. units: "job", or "physical" for s and g. ax: axes of Matplotlib to draw into, without a legend.
+    {"height": 0}. units: "job", or "physical" for s and g. title: instead of that of the job. ax: axes of Matplotlib to draw into, without a legend.
 
     Returns the axes; a list of them for several boundaries. Raises overturn.ToolError."""
     arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,
-                                index=index.items(), units=units)
+                                index=index.items(), units=units, title=title)
     return draw(result, arguments, ax)
 
 
@@ -258,6 +278,7 @@ def read_arguments(argv):
     parser = parser_of("plot_boundary", __doc__, EXAMPLE, "overturn boundary")
     add_choice_arguments(parser)
     add_units_argument(parser)
+    add_title_argument(parser)
     return parse_with_picture(parser, argv)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from overturn.arguments import OLD_FRICTION, refuses_old
 from overturn.captions import ground_word, heading, panel_titles, plain, subtitle
-from overturn.choice import add_choice_arguments, sheet_of
+from overturn.choice import add_choice_arguments, add_title_argument, sheet_of
 from overturn.colourings import VALUE, Field, Regions, Verdicts
 from overturn.friction import expect_coefficient
 from overturn.marked_points import Misjudged, Slipping
@@ -224,8 +224,7 @@ def read_arguments(argv):
     parser.add_argument("--friction-demand", type=coefficient, metavar="COEFFICIENT",
                         help="hatch and count the points whose verdict needs a larger friction coefficient; needs the "
                              "field friction_demand")
-    parser.add_argument("--title", help="title of the picture (default: the job's title, or the "
-                                        "names of its records)")
+    add_title_argument(parser)
     return parse_with_picture(parser, argv)
 
 
