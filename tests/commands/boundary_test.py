@@ -172,8 +172,8 @@ class ABoundary(Scratch):
             self.assertIn(f">{words}<", picture)
 
     def test_is_not_shaded_beyond_the_scanned_amplitudes(self):
-        # Two amplitudes, safe or not: 1/18 of the axis is below the first, 1/16 of 9/8, and only that is white. The other end
-        # is above the flips and below the second amplitude.
+        # Two amplitudes, safe or not: 1/18 of the axis is below the first, 1/16 of 9/8, and only that is white. The
+        # other end is above the flips and below the second amplitude.
         # The axis takes 0.725 to 0.755 of the height, by the lines of the legend; 0.71 of it are looked at.
         for last in ("1.1", "2"):
             self.assert_exit(self.overturn("boundary", "small.toml", "-o", f"few_{last}.h5",

@@ -48,9 +48,9 @@ class TestTheVerdict(Field):
         self.assertNotIn("At the end of the pulse", words)
 
     def test_has_a_share_that_is_0_or_100_per_cent_only_of_none_or_all(self):
-        for count, total, words in ((0, 9, "0 %"), (9, 9, "100 %"), (1, 3, "33 %"), (1, 1000, "0.1 %"), (3, 10**6, "0.0003 %"),
-                                    (999, 1000, "99.9 %"), (10**6 - 3, 10**6, "99.9997 %"), (1, 10**12, "0.0000000001 %"),
-                                    (10**12 - 1, 10**12, "99.9999999999 %")):
+        for count, total, words in ((0, 9, "0 %"), (9, 9, "100 %"), (1, 3, "33 %"), (1, 1000, "0.1 %"),
+                                    (999, 1000, "99.9 %"), (3, 10**6, "0.0003 %"), (10**6 - 3, 10**6, "99.9997 %"),
+                                    (1, 10**12, "0.0000000001 %"), (10**12 - 1, 10**12, "99.9999999999 %")):
             self.assertEqual(share_text(count, total), words)
 
     def test_lists_what_is_unknown_also_if_there_is_none(self):
@@ -191,7 +191,8 @@ class TestAField(Field):
             self.assertEqual((ax.get_yscale(), low), ("linear", 0))
             self.assertTrue(max(1, values.max()) < high < 1.1 * max(1, values.max()))
             self.assertEqual({*ax.lines[2].get_ydata()}, {1})
-        self.assertEqual(self.draw(np.full((2, 12), S), "margin", np.tile(np.geomspace(1e-5, 1, 12), (2, 1))).get_yscale(), "log")
+        ax = self.draw(np.full((2, 12), S), "margin", np.tile(np.geomspace(1e-5, 1, 12), (2, 1)))
+        self.assertEqual(ax.get_yscale(), "log")
 
     def test_along_axes_of_more_values_is_a_map(self):
         self.assertEqual(len(self.draw(np.full((7, 12), S), "peak", np.ones((7, 12))).lines), 0)
@@ -225,6 +226,10 @@ class TestARefusal(Field):
         for name in ("region", "status", "frequency"):
             self.refuses(2, f"{name} is no field with values", "--field", name)
         self.refuses(74, "no field peak; add it to output.fields", "--field", "peak")
+
+    def test_of_a_label_beside_curves(self):
+        self.spectrum_with(np.full((2, 12), S), "peak", np.ones((2, 12)))
+        self.refuses(2, "drawn as curves. Omit --label", "--field", "peak", "--label", "I=S@1,1")
 
     def test_of_a_field_and_the_verdict(self):
         self.spectrum_with([S, S], "peak", [0, 1])

@@ -163,7 +163,8 @@ class TestAPhysicalBoundary(Sized):
             (self.folder / "boundary.h5").unlink()
 
     def test_is_shaded_over_its_periods(self):
-        # A pulse of 0.3 s overturns the block at no scanned amplitude, one of 1.9 s at most. The axis ends above its flips.
+        # A pulse of 0.3 s overturns the block at no scanned amplitude, one of 1.9 s at most. The axis ends above the
+        # flips of the latter.
         self.overturn("boundary", "boundary.h5", *DIMENSIONLESS, "plane.frequency.values=[1.2,7.5]",
                       "plane.amplitude.last=6")
         how = {"tool": "plot_boundary", "file": "boundary.h5"}

@@ -38,8 +38,8 @@ def told_apart(texts, width):
 
 def title_of(file, shown=()):
     """Returns the job's title and its overrides, which may contradict it, except overrides of the
-    title, of the output, which no picture depends on, and of the tables or quantities (table.name) in `shown`, whose values
-    the picture shows elsewhere."""
+    title, of the output, which no picture depends on, and of the tables or quantities (table.name) in `shown`, whose
+    values the picture shows elsewhere."""
     title = file.text("title")
     if title:
         overrides = file.job_text("job_overrides").splitlines()

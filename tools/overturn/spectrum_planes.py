@@ -27,8 +27,8 @@ class Plane:
         self.height = file.sizes[up]
 
     def lines(self, most):
-        """Returns the planes along the axis of many values alone, one for each value of the other; none if that has more
-        than so many."""
+        """Returns the planes along the axis of many values alone, one for each value of the other; none if that has
+        more than so many."""
         if self.across is None:
             return [self]
         (fewer, few), (more, many) = sorted((self.file.sizes[name], name) for name in (self.across, self.up))

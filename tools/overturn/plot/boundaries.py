@@ -36,9 +36,9 @@ example:
 Each flip of the verdict is a point; consecutive ones along the frequency look like a line. The
 lowest flip of each frequency, the minimum overturning amplitude, is bold; a frequency at which the
 first amplitude of the scan overturns the block has a triangle instead. Overturning amplitudes are
-shaded. The vertical axis ends a little above the highest flip; the line below the title then states up to where no other
-one was found. Boundaries of several slendernesses, restitutions or records are plotted as a grid of up to
-100 planes. Under a record, there are always strips that are narrower than the steps of the scan: what
+shaded. If the vertical axis ends above the highest flip, before the end of the scan, the line below the
+title states this end. Boundaries of several slendernesses, restitutions or records are plotted as a grid
+of up to 100 planes. Under a record, there are always strips that are narrower than the steps of the scan: what
 is shaded as safe may contain them."""
 
 SAFE, UNSAFE, UNDECIDED, NOT_COMPUTED, NOT_SCANNED = range(5)
@@ -100,8 +100,8 @@ class Lines:
 
 
 def end_above_flips(all_lines):
-    """Ends the vertical axes a little above the highest flip if they become much shorter and every verdict is known from
-    there to the end of the scan. Returns words on that, or none."""
+    """Ends the vertical axes a little above the highest flip if they become much shorter and every verdict is known
+    from there to the end of the scan. Returns words on that, or none."""
     highest = max(np.nanmax(lines.up.share(lines.flips), initial=0) for lines in all_lines)
     last = [lines.verdicts(np.array([lines.scan[1]])) for lines in all_lines]
     if not 0 < highest < LONG - ABOVE or np.isin(last, UNDECIDED).any():
@@ -261,12 +261,14 @@ def draw(path, arguments, ax=None):
 
 
 def boundary(result, *, motion: int | None = None, slenderness: int | None = None,
-             restitution: int | None = None, index: Mapping[str, int] = {}, units: str = "job", title: str | None = None, ax=None):
+             restitution: int | None = None, index: Mapping[str, int] = {}, units: str = "job",
+             title: str | None = None, ax=None):
     """Draws a boundary, as tools/plot_boundary does.
 
     result: the path of a file, or the whole data set that overturn.open() returned for it. motion, slenderness,
     restitution: indices, counted from 0, of one boundary of several. index: the same for any dimensions, such as
-    {"height": 0}. units: "job", or "physical" for s and g. title: instead of that of the job. ax: axes of Matplotlib to draw into, without a legend.
+    {"height": 0}. units: "job", or "physical" for s and g. title: in place of that of the job. ax: axes of Matplotlib
+    without a picture to draw into, without a legend.
 
     Returns the axes; a list of them for several boundaries. Raises overturn.ToolError."""
     arguments = SimpleNamespace(motion=motion, slenderness=slenderness, restitution=restitution,

@@ -7,8 +7,9 @@ from overturn.tool import USAGE, ToolError
 def expect_empty(ax):
     """Raises an error if there is a picture in the axes of a caller, if any: another one would cover it."""
     if ax is not None and (ax.images or ax.child_axes):
-        raise ToolError("the axes already have a picture, which another one would cover. Give other axes, or clear these with "
-                        "ax.clear(). Curves for up to 6 values of an axis come from one call with field=.", USAGE)
+        raise ToolError("the axes already have a picture, which another one would cover. Give other axes, or clear "
+                        "them with ax.clear(). For a curve for each of up to 6 values of an axis, use field= in "
+                        "one call.", USAGE)
 
 
 def cover(panel, picture, low=0, high=1):

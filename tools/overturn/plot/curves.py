@@ -45,7 +45,8 @@ def draw_strips(panel, pictures):
             cover(strips, layer, (count - 1 - number) / count, (count - number) / count)
         strips.axhline(number, color="black", linewidth=0.5)
         if count > 1:
-            strips.plot(-0.012, count - 0.5 - number, transform=strips.get_yaxis_transform(), clip_on=False, **style_of(number))
+            strips.plot(-0.012, count - 0.5 - number, transform=strips.get_yaxis_transform(), clip_on=False,
+                        **style_of(number))
     strips.set(xticks=[], yticks=[], ylim=(0, count))
 
 

@@ -207,8 +207,8 @@ def mark_events(axes, history):
         if history.is_recorded:
             low, high = axes.get_ylim()
             axes.set_ylim(low - 0.08 * (high - low), high)
-            axes.plot(impacts, np.full(count, 0.04), transform=axes.get_xaxis_transform(), color="0.35", linestyle="none",
-                      marker="|", markersize=7, markeredgewidth=0.6, label=label)
+            axes.plot(impacts, np.full(count, 0.04), transform=axes.get_xaxis_transform(), color="0.35",
+                      linestyle="none", marker="|", markersize=7, markeredgewidth=0.6, label=label)
         else:
             axes.plot([], [], color="0.75", linewidth=0.8, label=label)
 
@@ -248,8 +248,8 @@ def point_of(file, units):
 
 
 def number_text(name, value):
-    """Returns a value in up to seven digits if that is what the job gives; otherwise in four, or seven of a strength, between
-    which the verdict may flip."""
+    """Returns a value in up to seven digits if the job gives no more; otherwise in four, but a strength in seven,
+    because the verdict may flip within four."""
     full = f"{value:.7g}"
     return full if float(full) == value or name in STRENGTHS else f"{value:.4g}"
 

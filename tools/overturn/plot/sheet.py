@@ -20,8 +20,8 @@ class Sheet:
 
     def __init__(self, heading, titles, columns, dpi, axes, above=0):
         """`heading` is a pair, the title of the sheet and the line below it; `titles` are those of the panels, and
-        `axes` pairs of Axis of each, the horizontal and the vertical one. `above` is the height of what is drawn between a
-        panel and its title, over that of the panel."""
+        `axes` pairs of Axis of each, the horizontal and the vertical one. `above` is the height of what is drawn
+        between a panel and its title, over that of the panel."""
         count = len(titles)
         rows = -(-count // columns)
         side = min(SIDES[columns], max(MOST_HEIGHT / rows, SIDES[10]))

@@ -93,6 +93,8 @@ def draw_panels(panels, pixels, planes, axes, arguments, layers):
     """Draws the panels and returns the codes in the picture. `layers` are what the colours show, and marks."""
     present = set()
     lines = [layers[0].lines(plane) for plane in planes]
+    if arguments.label and any(lines):
+        raise ToolError("a label is written in a map, but this field is drawn as curves. Omit --label.", USAGE)
     with open_boundary(arguments.boundary, *lines[0][:1] or planes[:1], arguments.units) as boundary:
         for panel, plane, curves, (across, up) in zip(panels, planes, lines, axes):
             if curves:
@@ -213,8 +215,8 @@ def read_arguments(argv):
     shown.add_argument("--verdict", action="store_true",
                        help="draw what stands, what topples and what is unknown: undecided, or not computed")
     shown.add_argument("--field", metavar="NAME",
-                       help="draw the values of a field of the file, such as peak; as curves if only one axis varies, or "
-                            "another one has few values")
+                       help="draw the values of a field of the file, such as peak; as curves if only one axis varies, "
+                            "or if the other one has at most 6 values")
     parser.add_argument("--boundary", metavar="BOUNDARY.h5",
                         help="overlay the flips of the verdict; written by overturn boundary")
     parser.add_argument("--practice", action="store_true",
