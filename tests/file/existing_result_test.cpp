@@ -27,9 +27,9 @@ using testing::Not;
 using testing::SizeIs;
 
 /// Returns the message with which the file at `path` is refused; empty if it is accepted.
-std::string refusal(const std::string& path, const Job& job)
+std::string refusal_to_replace(const std::string& path, const Job& job)
 {
-    return overturn::refusal(exit_code::output, [&] { existing_result(path, job); });
+    return refusal(exit_code::output, [&] { existing_result(path, job); });
 }
 
 hdf5::Handle open_to_change(const std::string& path)
@@ -99,7 +99,7 @@ TEST_F(ExistingResult, ShowsTheLineInWhichAnotherJobDiffers)
 {
     create();
     job.resolved = "pulse = \"symmetric_ricker\"\nwindow = 1.5\ntolerance = 1e-09\n";
-    EXPECT_THAT(refusal(path, job),
+    EXPECT_THAT(refusal_to_replace(path, job),
                 AllOf(HasSubstr("belongs to another job"), HasSubstr("line 2"),
                       HasSubstr("window = 1.25\n"), HasSubstr("window = 1.5\n"), HasSubstr("-o")));
 }
@@ -108,8 +108,9 @@ TEST_F(ExistingResult, ReportsThatAnotherJobIsLonger)
 {
     create();
     job.resolved += "one more line\n";
-    EXPECT_THAT(refusal(path, job), AllOf(HasSubstr("line 4"), HasSubstr("(nothing more)"),
-                                          HasSubstr("one more line")));
+    EXPECT_THAT(
+        refusal_to_replace(path, job),
+        AllOf(HasSubstr("line 4"), HasSubstr("(nothing more)"), HasSubstr("one more line")));
 }
 
 /// The resolved job of a suite of records and a table.
@@ -136,8 +137,9 @@ TEST_F(ExistingResult, NamesTheTableThatHasChanged)
          {job_of({record_line("a")}, "4"), job_of({record_line("a")}, "3", "\"width\""),
           job_of({record_line("a")}, "3", "\"width\", \"height\"", "02")}) {
         job.resolved = other;
-        EXPECT_THAT(refusal(path, job), AllOf(HasSubstr("the table \"blocks.csv\" has changed"),
-                                              HasSubstr("Restore it"), Not(HasSubstr("--set"))));
+        EXPECT_THAT(refusal_to_replace(path, job),
+                    AllOf(HasSubstr("the table \"blocks.csv\" has changed"),
+                          HasSubstr("Restore it"), Not(HasSubstr("--set"))));
     }
 }
 
@@ -149,7 +151,7 @@ TEST_F(ExistingResult, NamesTheRecordThatIsAnother)
     create();
     const auto expect = [&](const std::vector<std::string>& given, const std::string& words) {
         job.resolved = job_of(given);
-        EXPECT_THAT(refusal(path, job),
+        EXPECT_THAT(refusal_to_replace(path, job),
                     AllOf(HasSubstr(words), HasSubstr("Restore"), Not(HasSubstr("--set"))));
     };
     const auto others = [](const std::string& was, const std::string& is) {
@@ -180,7 +182,7 @@ TEST_F(ExistingResult, ShowsOnlyTheDifferingPartOfALongLine)
     job.resolved = "values = [" + many + ", 0.25, " + many + "]";
     create();
     job.resolved = "values = [" + many + ", 0.50, " + many + "]";
-    EXPECT_THAT(refusal(path, job),
+    EXPECT_THAT(refusal_to_replace(path, job),
                 AllOf(HasSubstr(", 0.25,"), HasSubstr(", 0.50,"), SizeIs(Lt(600u))));
 }
 
@@ -188,7 +190,7 @@ TEST_F(ExistingResult, RefusesAFileOfAnotherVersion)
 {
     create();
     set_attribute("program_version", "99.1.2");
-    EXPECT_THAT(refusal(path, job),
+    EXPECT_THAT(refusal_to_replace(path, job),
                 AllOf(HasSubstr("overturn 99.1.2"), HasSubstr(std::string(program_version()))));
 }
 
@@ -196,36 +198,39 @@ TEST_F(ExistingResult, RefusesAFileOfAnotherCommit)
 {
     create();
     set_attribute("program_commit", "0123456789abcdef");
-    EXPECT_THAT(refusal(path, job), HasSubstr("(commit 0123456789abcdef)"));
+    EXPECT_THAT(refusal_to_replace(path, job), HasSubstr("(commit 0123456789abcdef)"));
 }
 
 TEST_F(ExistingResult, RefusesAnotherKindOfHdf5File)
 {
     create();
     set_attribute("kind", "rocking history");
-    EXPECT_THAT(refusal(path, job), HasSubstr("is a rocking history, but the job computes an "
-                                              "overturning spectrum"));
+    EXPECT_THAT(refusal_to_replace(path, job),
+                HasSubstr("is a rocking history, but the job computes an "
+                          "overturning spectrum"));
     set_attribute("kind", "a mesh");
-    EXPECT_THAT(refusal(path, job), HasSubstr("not a result of overturn: its kind is \"a mesh\""));
+    EXPECT_THAT(refusal_to_replace(path, job),
+                HasSubstr("not a result of overturn: its kind is \"a mesh\""));
 }
 
 TEST_F(ExistingResult, RefusesAFileThatIsNotHdf5)
 {
     write_bytes(path, "the only copy of a thesis");
-    EXPECT_THAT(refusal(path, job), HasSubstr("is not an HDF5 file"));
+    EXPECT_THAT(refusal_to_replace(path, job), HasSubstr("is not an HDF5 file"));
     EXPECT_EQ(bytes_of(path), "the only copy of a thesis");
 }
 
 TEST_F(ExistingResult, RefusesAFolder)
 {
-    EXPECT_THAT(refusal(folder / "", job), HasSubstr("it is not a regular file"));
+    EXPECT_THAT(refusal_to_replace(folder / "", job), HasSubstr("it is not a regular file"));
 }
 
 TEST_F(ExistingResult, RefusesATruncatedFile)
 {
     create();
     std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
-    EXPECT_THAT(refusal(path, job), AllOf(HasSubstr("damaged"), HasSubstr("truncated file")));
+    EXPECT_THAT(refusal_to_replace(path, job),
+                AllOf(HasSubstr("damaged"), HasSubstr("truncated file")));
 }
 
 /// Values, links and views in other files, to which a run must not write.
@@ -263,7 +268,7 @@ TEST_F(ExternalReferences, RefusesValuesInAnotherFile)
     store_region([&](hid_t creation, hid_t) {
         H5Pset_external(creation, elsewhere.c_str(), 0, H5F_UNLIMITED);
     });
-    EXPECT_THAT(refusal(path, job),
+    EXPECT_THAT(refusal_to_replace(path, job),
                 HasSubstr("the values of a dataset are stored in another file"));
 }
 
@@ -272,7 +277,7 @@ TEST_F(ExternalReferences, RefusesAViewOfAnotherFile)
     store_region([&](hid_t creation, hid_t space) {
         H5Pset_virtual(creation, space, elsewhere.c_str(), "region", space);
     });
-    EXPECT_THAT(refusal(path, job),
+    EXPECT_THAT(refusal_to_replace(path, job),
                 HasSubstr("the values of a dataset are stored in another file"));
 }
 
@@ -282,7 +287,7 @@ TEST_F(ExternalReferences, RefusesALinkToAnotherFile)
         return H5Lcreate_external(elsewhere.c_str(), "region", file, "region", H5P_DEFAULT,
                                   H5P_DEFAULT);
     });
-    EXPECT_THAT(refusal(path, job), HasSubstr("a dataset is a link to another object"));
+    EXPECT_THAT(refusal_to_replace(path, job), HasSubstr("a dataset is a link to another object"));
 }
 
 TEST_F(ExternalReferences, RefusesALinkByName)
@@ -290,14 +295,15 @@ TEST_F(ExternalReferences, RefusesALinkByName)
     replace_region([&](hid_t file, hid_t) {
         return H5Lcreate_soft("moved", file, "region", H5P_DEFAULT, H5P_DEFAULT);
     });
-    EXPECT_THAT(refusal(path, job), HasSubstr("a dataset is a link to another object"));
+    EXPECT_THAT(refusal_to_replace(path, job), HasSubstr("a dataset is a link to another object"));
 }
 
 TEST_F(ExistingResult, IsRefusedIfItHasOtherTiles)
 {
     create();
     axis_of(job, "amplitude") = Axis(AxisRange{0.25, 16, 150, Spacing::linear});
-    EXPECT_THAT(refusal(path, job), HasSubstr("its fields or tiles do not match its job"));
+    EXPECT_THAT(refusal_to_replace(path, job),
+                HasSubstr("its fields or tiles do not match its job"));
 }
 
 TEST_F(ExistingResult, IsRefusedIfACoordinateHasChanged)
@@ -305,7 +311,7 @@ TEST_F(ExistingResult, IsRefusedIfACoordinateHasChanged)
     create();
     overwrite("amplitude", 1, 4.5);
     EXPECT_THAT(StoredResult(path).damaged_coordinates(), ElementsAre("amplitude"));
-    EXPECT_THAT(refusal(path, job),
+    EXPECT_THAT(refusal_to_replace(path, job),
                 HasSubstr("the values of its coordinates have changed: amplitude. Remove it"));
 }
 
@@ -326,11 +332,11 @@ TEST_F(ExistingResult, OfAnotherFormatIsRefused)
 {
     create();
     set_attribute("format_version", std::int64_t(2));
-    EXPECT_THAT(refusal(path, job),
+    EXPECT_THAT(refusal_to_replace(path, job),
                 HasSubstr("has format version 2, but this program reads "
                           "versions 4 and 5. Use an older program, or compute"));
     set_attribute("format_version", std::int64_t(6));
-    EXPECT_THAT(refusal(path, job), HasSubstr("Use a newer program."));
+    EXPECT_THAT(refusal_to_replace(path, job), HasSubstr("Use a newer program."));
 }
 
 } // namespace

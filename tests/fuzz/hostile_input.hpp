@@ -3,12 +3,21 @@
 // nothing may be computed or written.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
 namespace overturn {
 
 enum class Verdict { accepted, refused };
+
+/// Throws std::logic_error, which no reader throws.
+inline void demand(bool condition, const std::string& otherwise)
+{
+    if (!condition) {
+        throw std::logic_error(otherwise);
+    }
+}
 
 /// The input may begin with lines "--set KEY=VALUE"; the rest becomes a job file at `path`. Reading
 /// the resolved text of an accepted job must give the same job.

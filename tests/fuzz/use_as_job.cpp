@@ -8,19 +8,11 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
 #include <vector>
 
 namespace overturn {
 
 namespace {
-
-void demand(bool condition, const std::string& otherwise)
-{
-    if (!condition) {
-        throw std::logic_error(otherwise);
-    }
-}
 
 /// Removes the lines "--set KEY=VALUE" from the beginning.
 std::vector<std::string> take_overrides(std::string_view& bytes)

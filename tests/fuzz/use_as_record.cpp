@@ -7,18 +7,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <stdexcept>
 
 namespace overturn {
 
 namespace {
-
-void demand(bool condition, const std::string& otherwise)
-{
-    if (!condition) {
-        throw std::logic_error(otherwise);
-    }
-}
 
 /// Removes a line that begins with the key, and returns its rest; nullopt if there is none.
 std::optional<std::string_view> take_line(std::string_view& bytes, std::string_view key)

@@ -7,18 +7,10 @@
 
 #include <algorithm>
 #include <functional>
-#include <stdexcept>
 
 namespace overturn {
 
 namespace {
-
-void demand(bool condition, const std::string& otherwise)
-{
-    if (!condition) {
-        throw std::logic_error(otherwise);
-    }
-}
 
 /// The columns of numbers with the names of coordinates. Their values are allowed.
 std::vector<Given> columns_of(const Table& table)

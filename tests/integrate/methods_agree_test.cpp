@@ -115,7 +115,7 @@ TEST(TaylorMethod, ErrorDecreasesWithTheTolerance)
 }
 
 /// A line of amplitudes along which the number of impacts changes between two neighbours.
-struct Graze {
+struct PulseGraze {
     PulsePoint<double> point;
     double low, high; ///< amplitudes on both sides of the change, a relative 1e-13 apart
 };
@@ -123,9 +123,9 @@ struct Graze {
 /// Finds changes of the number of impacts along random lines: a block that just touches the ground
 /// during its motion, or strikes it just before the pulse ends.
 template <Theory theory>
-std::vector<Graze> grazes(PulseKind pulse, std::mt19937_64& generator, std::size_t wanted)
+std::vector<PulseGraze> grazes(PulseKind pulse, std::mt19937_64& generator, std::size_t wanted)
 {
-    std::vector<Graze> found;
+    std::vector<PulseGraze> found;
     while (found.size() < wanted) {
         PulsePoint<double> point = random_point(generator);
         const auto impacts_at = [&](double amplitude) {
@@ -168,7 +168,7 @@ TEST(Methods, MissNoImpactNextToAGraze)
         if (traits_of(pulse).half_turns == 1) {
             return; // a push to one side only: no block comes down before it ends
         }
-        for (const Graze& graze : grazes<theory>(pulse, generator, 6)) {
+        for (const PulseGraze& graze : grazes<theory>(pulse, generator, 6)) {
             for (const double offset : {1e-3, 1e-5, 1e-7}) {
                 for (const double amplitude :
                      {graze.low * (1 - offset), graze.high * (1 + offset)}) {

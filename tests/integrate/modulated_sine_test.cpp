@@ -13,7 +13,7 @@ template <class Method>
 class UnderSines : public testing::Test {};
 TYPED_TEST_SUITE(UnderSines, EveryMethod, MethodName);
 
-const double digits = 1e-12; // tolerance of these runs
+const double tolerance_of_runs = 1e-12;
 
 /// weight sin(speed phase + shift)
 struct Sine {
@@ -75,7 +75,7 @@ double found_over_exact(PulseKind pulse, const PulseShape& shape, double frequen
     double high = 1.01 * exact;
     for (int i = 0; i < 60; ++i) {
         const PulsePoint<double> point{0.25, 0.81, frequency, (low + high) / 2};
-        const auto end = forced_end<Theory::linear, Method>(pulse, point, digits, shape);
+        const auto end = forced_end<Theory::linear, Method>(pulse, point, tolerance_of_runs, shape);
         const Region region = region_of<Theory::linear>(end, point.block());
         const bool overturns = is_unsafe(region) && region != Region::U1_plus &&
                                region != Region::U1_minus && end.impacts == 0;
@@ -85,7 +85,7 @@ double found_over_exact(PulseKind pulse, const PulseShape& shape, double frequen
 }
 
 // As in closed_form_test.cpp.
-const double closed_form_error = 1e-10;
+const double error_of_runs = 1e-10;
 
 TYPED_TEST(UnderSines, TwoCyclesOverturnWithoutImpactFromTheAmplitudeOfTheirIntegral)
 {
@@ -93,7 +93,7 @@ TYPED_TEST(UnderSines, TwoCyclesOverturnWithoutImpactFromTheAmplitudeOfTheirInte
     for (const double frequency : {3.0, 4.0, 5.0, 8.0}) {
         const double exact = sine.critical_amplitude(frequency, 1e-3, 1.5, 1.57);
         EXPECT_NEAR(found_over_exact<TypeParam>(PulseKind::sine, {.cycles = 2}, frequency, exact),
-                    1, closed_form_error)
+                    1, error_of_runs)
             << "frequency " << frequency;
     }
 }
@@ -114,7 +114,7 @@ TYPED_TEST(UnderSines, MavroeidisPapageorgiouOverturnsFromTheAmplitudeOfItsInteg
         const double exact = pulse.critical_amplitude(frequency, low, high, peak);
         EXPECT_NEAR(found_over_exact<TypeParam>(PulseKind::mavroeidis_papageorgiou,
                                                 {.gamma = gamma, .nu = nu}, frequency, exact),
-                    1, closed_form_error)
+                    1, error_of_runs)
             << "gamma " << gamma << ", frequency " << frequency;
     }
 }

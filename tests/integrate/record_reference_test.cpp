@@ -1,6 +1,7 @@
 // The forced stage under records, compared with closed forms.
 #include "support/linear_reference.hpp"
 #include "support/record_point.hpp"
+#include "support/special_values.hpp"
 
 #include "overturn/integrate/forced_stage.hpp"
 #include "overturn/mechanics/free_rocking.hpp"
@@ -16,8 +17,6 @@
 
 namespace overturn {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double exact_margin(const LinearEnd& end, const RecordPoint& point)
 {

@@ -2,6 +2,7 @@
 #include "support/observed_order.hpp"
 #include "support/one_point.hpp"
 #include "support/record_point.hpp"
+#include "support/special_values.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +10,6 @@
 
 namespace overturn {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Calls visit.template operator()<theory, directions>().
 template <class Visitor>

@@ -1,4 +1,5 @@
 #include "support/random_record.hpp"
+#include "support/special_values.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +8,6 @@
 
 namespace overturn {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool lifts(const Accelerogram& record, std::int64_t i, double scale, double threshold)
 {

@@ -13,17 +13,17 @@
 namespace overturn {
 namespace {
 
-struct Start {
+struct RockingStart {
     State<double> state;
     Block<double> block;
 };
 
 /// Blocks of every kind in states of every region.
-std::vector<Start> random_starts(int count)
+std::vector<RockingStart> rocking_starts(int count)
 {
     std::mt19937_64 generator(21);
     std::uniform_real_distribution<double> uniform(0, 1);
-    std::vector<Start> starts;
+    std::vector<RockingStart> starts;
     for (int i = 0; i < count; ++i) {
         const double slenderness = 0.01 + 1.2 * uniform(generator) * uniform(generator);
         const double tilt = std::min(2.2 * slenderness, 1.57) * uniform(generator);
@@ -36,11 +36,11 @@ std::vector<Start> random_starts(int count)
 
 /// States whose rate is within 1e-12 of the separatrix, or of the limit at which the block just
 /// does not overturn after its impact.
-std::vector<Start> starts_next_to_a_boundary(int count)
+std::vector<RockingStart> starts_next_to_a_boundary(int count)
 {
     std::mt19937_64 generator(22);
     std::uniform_real_distribution<double> uniform(-1, 1);
-    std::vector<Start> starts = random_starts(count);
+    std::vector<RockingStart> starts = rocking_starts(count);
     for (std::size_t i = 0; i < starts.size(); ++i) {
         State<double>& state = starts[i].state;
         const SafeRates<double> safe = safe_rates<Theory::nonlinear>(state.tilt, starts[i].block);
@@ -59,7 +59,7 @@ State<Digits50> in_digits(const State<double>& state)
 template <Theory theory>
 class AgainstIntegration {
 public:
-    explicit AgainstIntegration(const Start& start)
+    explicit AgainstIntegration(const RockingStart& start)
         : alpha_(start.block.slenderness), restitution_(start.block.restitution),
           rocking_(start.state, start.block),
           motion_(in_digits(start.state), start.block.slenderness)
@@ -112,10 +112,10 @@ private:
 };
 
 template <Theory theory>
-double largest_error(const std::vector<Start>& starts)
+double largest_error(const std::vector<RockingStart>& starts)
 {
     double largest = 0;
-    for (const Start& start : starts) {
+    for (const RockingStart& start : starts) {
         AgainstIntegration<theory> against(start);
         against.compare(3);
         largest = std::max(largest, against.largest_error());
@@ -125,9 +125,9 @@ double largest_error(const std::vector<Start>& starts)
 
 TEST(FreeRocking, EqualsTheIntegratedMotionFromEveryRegion)
 {
-    const std::vector<Start> starts = random_starts(150);
+    const std::vector<RockingStart> starts = rocking_starts(150);
     std::set<Region> seen;
-    for (const Start& start : starts) {
+    for (const RockingStart& start : starts) {
         seen.insert(region_after_pulse<Theory::nonlinear>(start.state, start.block));
     }
     ASSERT_EQ(seen.size(), 7u);
@@ -146,7 +146,7 @@ TEST(FreeRocking, ObeysItsEquationAndConservesQ)
 {
     // By differences in 50 digits, with an error of h^2 / 12 times a derivative below 10.
     const Digits50 h = 1e-12;
-    for (const Start& start : random_starts(50)) {
+    for (const RockingStart& start : rocking_starts(50)) {
         const Digits50 alpha = start.block.slenderness;
         const State<Digits50> begin = in_digits(start.state);
         const Digits50 q = conserved_q<Theory::nonlinear>(begin, BlockSide{alpha});
@@ -245,7 +245,7 @@ TEST(RockingArc, StaysOnTheEdgeForeverOnTheSeparatrix)
 
 TEST(FreeRocking, HasTheOutcomeOfTheRegion)
 {
-    for (const Start& start : random_starts(20000)) {
+    for (const RockingStart& start : rocking_starts(20000)) {
         const Region region = region_after_pulse<Theory::nonlinear>(start.state, start.block);
         FreeRocking<Theory::nonlinear, double> rocking(start.state, start.block);
         while (rocking.impacts() < 3 && std::isfinite(rocking.impact_time())) {

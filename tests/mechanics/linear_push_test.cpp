@@ -12,7 +12,7 @@ namespace {
 
 /// A block in motion, at the centre of the expansion; ramps over the time of the expansion.
 template <class T>
-struct Start {
+struct PushStart {
     T tilt;        // [rad]
     T rate;        // [rad per unit]
     T slenderness; // [rad]
@@ -21,13 +21,13 @@ struct Start {
 };
 
 /// Blocks from upright to overturned under pushes from both sides.
-std::vector<Start<double>> random_starts(int count)
+std::vector<PushStart<double>> push_starts(int count)
 {
     std::mt19937_64 generator(17);
     const auto between = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(generator);
     };
-    std::vector<Start<double>> starts;
+    std::vector<PushStart<double>> starts;
     for (int i = 0; i < count; ++i) {
         starts.push_back(
             {.tilt = between(0, 1.57),
@@ -39,7 +39,7 @@ std::vector<Start<double>> random_starts(int count)
     return starts;
 }
 
-Start<Digits50> in_digits(const Start<double>& start)
+PushStart<Digits50> in_digits(const PushStart<double>& start)
 {
     const auto ramp = [](const Ramp<double>& r) { return Ramp<Digits50>{r.start, r.slope}; };
     return {start.tilt,
@@ -50,7 +50,7 @@ Start<Digits50> in_digits(const Start<double>& start)
 }
 
 template <Theory theory, int order, class T, class Push>
-RockingSeries<order, T> series_under(const Push& push, const Start<T>& start)
+RockingSeries<order, T> series_under(const Push& push, const PushStart<T>& start)
 {
     return Equations<theory>::template series<order>(BlockSide{start.slenderness}, start.tilt,
                                                      start.rate, push, start.unit);
@@ -81,7 +81,7 @@ TYPED_TEST_SUITE(SeriesUnderALinearPush, EveryTheory, TheoryName);
 TYPED_TEST(SeriesUnderALinearPush, IsThatOfAnyPushWithoutFurtherTerms)
 {
     constexpr Theory theory = TypeParam::value;
-    for (const Start<double>& start : random_starts(200)) {
+    for (const PushStart<double>& start : push_starts(200)) {
         const Ramp<double>& push = start.ground.horizontal;
         const Coefficients<20, double> all{push.start, push.slope};
         // The terms that are omitted add exact zeros: no bit may change.
@@ -93,7 +93,7 @@ TYPED_TEST(SeriesUnderALinearPush, IsThatOfAnyPushWithoutFurtherTerms)
 TYPED_TEST(SeriesUnderALinearPush, IsUnchangedByAConstantGravityOfOne)
 {
     constexpr Theory theory = TypeParam::value;
-    for (const Start<double>& start : random_starts(200)) {
+    for (const PushStart<double>& start : push_starts(200)) {
         const Ramp<double>& push = start.ground.horizontal;
         const Ground<Ramp<double>> with_gravity{push, {1, 0}};
         // Products by 1 and 0 are exact: no bit may change.
@@ -115,7 +115,7 @@ std::array<Digits50, 2> value_and_slope(const std::array<Digits50, count>& c, co
 
 /// The residual of the series in the equation of motion of block.hpp, at t.
 template <Theory theory, int order>
-Digits50 residual(const Start<Digits50>& start, const Digits50& t)
+Digits50 residual(const PushStart<Digits50>& start, const Digits50& t)
 {
     const auto series = series_under<theory, order>(start.ground, start);
     return value_and_slope(series.rate, t)[1] -
@@ -128,7 +128,7 @@ Digits50 residual(const Start<Digits50>& start, const Digits50& t)
 TYPED_TEST(SeriesUnderALinearPush, SolvesTheEquationWithVerticalMotionToItsOrder)
 {
     constexpr Theory theory = TypeParam::value;
-    const Start<Digits50> start = in_digits(random_starts(1)[0]);
+    const PushStart<Digits50> start = in_digits(push_starts(1)[0]);
     const auto order = [&]<int n>() {
         return observed_order({32, 64, 128}, [&](int parts) -> Digits50 {
             return abs(residual<theory, n>(start, Digits50(1) / parts));
@@ -143,7 +143,7 @@ TYPED_TEST(SeriesUnderALinearPush, SolvesTheEquationWithVerticalMotionToItsOrder
 TYPED_TEST(SeriesUnderALinearPush, SolvesTheEquationWithVerticalMotionToManyDigits)
 {
     constexpr Theory theory = TypeParam::value;
-    for (const Start<double>& start : random_starts(20)) {
+    for (const PushStart<double>& start : push_starts(20)) {
         for (const double t : {-0x1p-8, 0x1p-9, 0x1p-8}) {
             // The residual of order 20 is below 2^-160 = 7e-49. A product missing from one of the
             // first 16 coefficients is visible.
@@ -155,7 +155,7 @@ TYPED_TEST(SeriesUnderALinearPush, SolvesTheEquationWithVerticalMotionToManyDigi
 TYPED_TEST(SeriesUnderALinearPush, RatesAreTheSlopesOfTilts)
 {
     constexpr Theory theory = TypeParam::value;
-    for (const Start<double>& start : random_starts(200)) {
+    for (const PushStart<double>& start : push_starts(200)) {
         const auto series = series_under<theory, 14>(start.ground, start);
         for (std::size_t k = 0; k < series.rate.size(); ++k) {
             // A product by 1 / (k + 1), rounded twice.

@@ -2,13 +2,12 @@
 #include "overturn/mechanics/pulse_motion.hpp"
 #include "overturn/number/digits50.hpp"
 #include "support/every_pulse.hpp"
+#include "support/special_values.hpp"
 
 #include <gtest/gtest.h>
 
 namespace overturn {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 template <class S>
 PulseMotion<S> mavroeidis_papageorgiou(double gamma, double nu)

@@ -1,5 +1,6 @@
 // A block under a recorded ground motion: the push between samples, and when it lifts the block.
 #include "support/random_record.hpp"
+#include "support/special_values.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +8,6 @@
 
 namespace overturn {
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(RecordExcitation, IsLinearBetweenItsSamples)
 {

@@ -15,7 +15,7 @@ struct FreeStart {
 };
 
 /// Random blocks in random states, distributed over all regions.
-std::vector<FreeStart> random_starts(int count)
+std::vector<FreeStart> free_starts(int count)
 {
     std::mt19937_64 generator(7);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -66,7 +66,7 @@ TEST(Separatrix, HasTheSlopeOfItsRate)
 TEST(RegionAfterPulse, IsSafeExactlyWhereEquation20Holds)
 {
     int safe = 0;
-    for (const FreeStart& start : random_starts(200000)) {
+    for (const FreeStart& start : free_starts(200000)) {
         const bool stable = stable_by_equation_20(start);
         safe += stable;
         EXPECT_EQ(is_safe(region_after_pulse<Theory::nonlinear>(start.state, start.block)), stable);
@@ -78,7 +78,7 @@ TEST(RegionAfterPulse, IsSafeExactlyWhereEquation20Holds)
 TEST(RegionAfterPulse, AgreesWithTheIntegratedFreeStage)
 {
     std::map<Region, int> seen;
-    for (const FreeStart& start : random_starts(4000)) {
+    for (const FreeStart& start : free_starts(4000)) {
         const double margin = margin_after_pulse<Theory::nonlinear>(start.state, start.block);
         if (std::abs(margin) < 1e-6) {
             continue; // closer to the separatrix than the integration is exact
@@ -119,7 +119,7 @@ TEST(RegionAfterPulse, IsMirroredWithTheSide)
                                           {Region::U0_minus, Region::U0_plus},
                                           {Region::U1_plus, Region::U1_minus},
                                           {Region::U1_minus, Region::U1_plus}};
-    for (const FreeStart& start : random_starts(10000)) {
+    for (const FreeStart& start : free_starts(10000)) {
         const State<double> mirrored{start.state.tilt, start.state.rate, -start.state.side};
         EXPECT_EQ(region_after_pulse<Theory::nonlinear>(mirrored, start.block),
                   mirror.at(region_after_pulse<Theory::nonlinear>(start.state, start.block)));
@@ -136,7 +136,7 @@ TEST(RegionAfterPulse, ABlockAtRestIsInS)
 
 TEST(MarginAfterPulse, HasTheSignOfTheVerdict)
 {
-    for (const FreeStart& start : random_starts(100000)) {
+    for (const FreeStart& start : free_starts(100000)) {
         EXPECT_EQ(margin_after_pulse<Theory::nonlinear>(start.state, start.block) >= 0,
                   is_safe(region_after_pulse<Theory::nonlinear>(start.state, start.block)));
         EXPECT_EQ(margin_after_pulse<Theory::linear>(start.state, start.block) >= 0,

@@ -2,6 +2,7 @@
 #include "overturn/number/digits50.hpp"
 #include "support/every_pulse.hpp"
 #include "support/observed_order.hpp"
+#include "support/special_values.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,11 +14,9 @@
 namespace overturn {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 /// A block in motion under a pulse, at the centre of the expansion.
 template <class T>
-struct Start {
+struct SeriesStart {
     T tilt;         // [rad]
     T rate;         // [rad p]
     T slenderness;  // [rad]
@@ -27,23 +26,23 @@ struct Start {
     T unit;         // of time [1/p]
 };
 
-const Start<Digits50> inward{.tilt = 0.15,
-                             .rate = -0.25,
-                             .slenderness = 0.2,
-                             .acceleration = 0.45,
-                             .phase = 0.7,
-                             .frequency = 3,
-                             .unit = 1};
+const SeriesStart<Digits50> inward{.tilt = 0.15,
+                                   .rate = -0.25,
+                                   .slenderness = 0.2,
+                                   .acceleration = 0.45,
+                                   .phase = 0.7,
+                                   .frequency = 3,
+                                   .unit = 1};
 
 /// Blocks from upright to overturned, slow and fast, under pushes from both sides; units as chosen
 /// by a stepper.
-std::vector<Start<double>> random_starts(int count)
+std::vector<SeriesStart<double>> series_starts(int count)
 {
     std::mt19937_64 generator(5);
     const auto between = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(generator);
     };
-    std::vector<Start<double>> starts;
+    std::vector<SeriesStart<double>> starts;
     for (int i = 0; i < count; ++i) {
         const double frequency = std::exp(between(std::log(0.1), std::log(20.0)));
         starts.push_back({.tilt = between(0, 1.57),
@@ -57,14 +56,14 @@ std::vector<Start<double>> random_starts(int count)
     return starts;
 }
 
-Start<Digits50> in_digits(const Start<double>& start)
+SeriesStart<Digits50> in_digits(const SeriesStart<double>& start)
 {
     return {start.tilt,  start.rate,      start.slenderness, start.acceleration,
             start.phase, start.frequency, start.unit};
 }
 
 template <Theory theory, int order, class T>
-RockingSeries<order, T> series_of(PulseKind pulse, const Start<T>& start)
+RockingSeries<order, T> series_of(PulseKind pulse, const SeriesStart<T>& start)
 {
     const auto push = pulse_motion<T>(pulse).template series<order>(
         start.acceleration, start.phase, T(start.frequency * start.unit));
@@ -99,7 +98,7 @@ T slope(const std::array<T, count>& c, const T& t)
 
 /// The residual of the series in the equation of motion of block.hpp and pulse.hpp, at t.
 template <Theory theory, int order>
-Digits50 residual(PulseKind pulse, const Start<Digits50>& start, const Digits50& t)
+Digits50 residual(PulseKind pulse, const SeriesStart<Digits50>& start, const Digits50& t)
 {
     const auto series = series_of<theory, order>(pulse, start);
     const Digits50 push = start.acceleration *
@@ -134,8 +133,8 @@ TEST_P(SeriesUnderEveryPulse, SolvesEquation47ToItsOrder)
 
 TEST_P(SeriesUnderEveryPulse, ALongSeriesSolvesEquation47ToManyDigits)
 {
-    for (const Start<double>& start : random_starts(20)) {
-        const Start<Digits50> digits = in_digits(start);
+    for (const SeriesStart<double>& start : series_starts(20)) {
+        const SeriesStart<Digits50> digits = in_digits(start);
         for (const double t : {-0x1p-8, 0x1p-9, 0x1p-8}) {
             // The residual of order 20 is below 2^-160, 7e-49. A product missing from one of the
             // first 16 coefficients is visible.
@@ -153,7 +152,7 @@ TYPED_TEST_SUITE(SeriesOfEveryTheory, Theories);
 
 TYPED_TEST(SeriesOfEveryTheory, RateIsTheDerivativeOfTilt)
 {
-    for (const Start<double>& start : random_starts(200)) {
+    for (const SeriesStart<double>& start : series_starts(200)) {
         const auto series = series_of<TypeParam::value, 20>(PulseKind::one_sine, start);
         EXPECT_EQ(series.tilt[0], start.tilt);
         EXPECT_EQ(series.rate[0], start.rate * start.unit);
@@ -170,7 +169,7 @@ TEST(RockingSeries, OfTheLinearTheoryUnderAConstantPushIsHyperbolic)
 {
     // tilt = alpha + B + (tilt_0 - alpha - B) cosh(u t) + (rate_0 / u) sinh(u t), u the unit and
     // rate_0 per unit of t.
-    Start<Digits50> start = inward;
+    SeriesStart<Digits50> start = inward;
     start.unit = Digits50(1) / 3;
     const auto series = series_of<Theory::linear, 20>(PulseKind::rectangular, start);
     const Digits50 rest = start.slenderness + start.acceleration;
@@ -184,7 +183,7 @@ TEST(RockingSeries, OfTheLinearTheoryUnderAConstantPushIsHyperbolic)
 
 TYPED_TEST(SeriesOfEveryTheory, IsReversedInTimeWithThePush)
 {
-    for (const Start<double>& start : random_starts(200)) {
+    for (const SeriesStart<double>& start : series_starts(200)) {
         const double w = start.frequency * start.unit;
         const double rate = start.rate * start.unit;
         const auto forth = pulse_motion<double>(PulseKind::one_sine)
@@ -207,10 +206,10 @@ TYPED_TEST(SeriesOfEveryTheory, IsMirroredAboutTheUnstableBalance)
     // At tilt = alpha the mass is above the corner: alpha - tilt and tilt - alpha obey one
     // equation.
     constexpr Theory theory = TypeParam::value;
-    for (Start<double> start : random_starts(200)) {
+    for (SeriesStart<double> start : series_starts(200)) {
         start.slenderness = 0.25; // so that the tilt's distance from it has an exact opposite
         start.tilt = std::ldexp(std::round(std::ldexp(start.tilt, 20)), -20);
-        Start<double> mirrored = start;
+        SeriesStart<double> mirrored = start;
         mirrored.tilt = 2 * start.slenderness - start.tilt;
         mirrored.rate = -start.rate;
         mirrored.acceleration = -start.acceleration;
@@ -225,8 +224,8 @@ TYPED_TEST(SeriesOfEveryTheory, IsMirroredAboutTheUnstableBalance)
 TYPED_TEST(SeriesOfEveryTheory, CoefficientKGrowsWithTheUnitOfTimeToThePowerK)
 {
     constexpr Theory theory = TypeParam::value;
-    for (const Start<double>& start : random_starts(200)) {
-        Start<double> slower = start;
+    for (const SeriesStart<double>& start : series_starts(200)) {
+        SeriesStart<double> slower = start;
         slower.unit = start.unit / 4;
         const auto ours = series_of<theory, 20>(PulseKind::symmetric_ricker, start);
         const auto theirs = series_of<theory, 20>(PulseKind::symmetric_ricker, slower);
@@ -235,7 +234,7 @@ TYPED_TEST(SeriesOfEveryTheory, CoefficientKGrowsWithTheUnitOfTimeToThePowerK)
             ASSERT_EQ(theirs.tilt[k], std::ldexp(ours.tilt[k], -2 * int(k))) << k;
         }
     }
-    Start<Digits50> odd = inward;
+    SeriesStart<Digits50> odd = inward;
     odd.unit = Digits50(1) / 7;
     const auto ours = series_of<theory, 20>(PulseKind::symmetric_ricker, inward);
     const auto theirs = series_of<theory, 20>(PulseKind::symmetric_ricker, odd);
@@ -248,7 +247,7 @@ TYPED_TEST(SeriesOfEveryTheory, CoefficientKGrowsWithTheUnitOfTimeToThePowerK)
 TYPED_TEST(SeriesOfEveryTheory, ALongerSeriesBeginsWithTheShorterOneToTheBit)
 {
     constexpr Theory theory = TypeParam::value;
-    for (const Start<double>& start : random_starts(200)) {
+    for (const SeriesStart<double>& start : series_starts(200)) {
         const auto shorter = series_of<theory, 13>(PulseKind::antisymmetric_ricker, start);
         const auto longer = series_of<theory, 20>(PulseKind::antisymmetric_ricker, start);
         for (std::size_t k = 0; k < shorter.tilt.size(); ++k) {
@@ -266,7 +265,7 @@ TYPED_TEST(SeriesOfEveryTheory, InDoubleAgreesWithFiftyDigits)
     constexpr int order = 20;
     std::array<double, order + 1> error{};
     std::array<double, order + 1> largest{};
-    for (const Start<double>& start : random_starts(1000)) {
+    for (const SeriesStart<double>& start : series_starts(1000)) {
         const auto ours = series_of<theory, order>(PulseKind::one_sine, start);
         const auto exact = series_of<theory, order>(PulseKind::one_sine, in_digits(start));
         for (std::size_t k = 0; k <= order; ++k) {

@@ -10,14 +10,15 @@
 namespace overturn {
 namespace {
 
-const Quantities block{number("width", 0.6), axis("height", {1.8, 2.5}),
-                       number("restitution_of_maximum", 0.9)};
+const Quantities listed_block{number("width", 0.6), axis("height", {1.8, 2.5}),
+                              number("restitution_of_maximum", 0.9)};
 
 /// A problem of every kind.
 std::vector<Problem> every_problem()
 {
-    const Quantities pulse = block + Quantities{axis("pga", AxisRange{0.1, 2, 30, Spacing::log}),
-                                                axis("pulse_period", {0.5, 1})};
+    const Quantities pulse =
+        listed_block + Quantities{axis("pga", AxisRange{0.1, 2, 30, Spacing::log}),
+                                  axis("pulse_period", {0.5, 1})};
     const Scene pulse_scene{.motion =
                                 Pulse{PulseKind::mavroeidis_papageorgiou,
                                       {.window = 0.5, .cycles = 2, .gamma = 1.5, .nu = -0.25}},
@@ -56,22 +57,23 @@ std::vector<Problem> every_problem()
                               number("amplitude", 2), number("frequency", 3)}),
          .fields = {Field::region}},
         {.scene = {},
-         .grid = grid_of(
-             {}, block + Quantities{column("pga", {0.5, 0.2}), column("pulse_frequency", {3, 2})}),
+         .grid = grid_of({}, listed_block + Quantities{column("pga", {0.5, 0.2}),
+                                                       column("pulse_frequency", {3, 2})}),
          .fields = {Field::region}},
         {.scene = records,
-         .grid = grid_of(
-             records, block + Quantities{axis("motion", {1, 2, 3}), axis("scale", {1, 2, 3, 4})}),
+         .grid = grid_of(records, listed_block + Quantities{axis("motion", {1, 2, 3}),
+                                                            axis("scale", {1, 2, 3, 4})}),
          .numerics = {.method = Method::taylor, .resolve = true},
          .fields = {Field::region, Field::status}},
         {.scene = vertical,
-         .grid = grid_of(vertical, block + Quantities{column("motion", {2, 1, 2}),
-                                                      column("scale", {1, 0.5, 1.5})}),
+         .grid = grid_of(vertical, listed_block + Quantities{column("motion", {2, 1, 2}),
+                                                             column("scale", {1, 0.5, 1.5})}),
          .numerics = {.method = Method::taylor},
          .fields = {Field::peak}},
         {.scene = directions,
-         .grid = grid_of(directions, block + Quantities{number("motion", 1), number("scale", 1),
-                                                        axis("direction", {0, 30})}),
+         .grid =
+             grid_of(directions, listed_block + Quantities{number("motion", 1), number("scale", 1),
+                                                           axis("direction", {0, 30})}),
          .fields = {Field::region}}};
     return problems;
 }

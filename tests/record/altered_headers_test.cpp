@@ -193,7 +193,7 @@ const Format esm{
     {{29, Kind::time, "INTERVAL_S:"}, {30, Kind::count, "NDATA:"}, {31, Kind::time, "DURATION_S:"},
      {40, Kind::acceleration, "S^2:"}, {41, Kind::remarked_time, "PGA_S:"}},
     {{33, "cm/s^2", "g"}, {33, "cm/s^2", "m/s^2"}, {33, "cm/s^2", "mm/s^2"}, {40, "PGA_CM", "PGA_M"}}};
-const Format at2{
+const Format at2_format{
     {{3, Kind::acceleration, "PEAK ="}, {4, Kind::count, "NPTS="}, {4, Kind::time, "DURATION="}},
     {{3, "UNITS OF G", "UNITS OF CM/S/S"}, {3, "UNITS OF G", "M/S/S"}, {3, "0 G", "0 M/S/S"}}};
 // clang-format on
@@ -396,7 +396,7 @@ TEST(AnAlteredHeader, OfAMadeFileIsNeverReadWithAWrongScaleOrLength)
     };
     const std::vector<MadeFile> files{
         {"ESM", [](Made motion) { return esm_file(motion); }, esm},
-        {"AT2", [](Made motion) { return at2_file(motion); }, at2},
+        {"AT2", [](Made motion) { return at2_file(motion); }, at2_format},
         {"K-NET", [](Made motion) { return knet_file(motion); }, knet},
         {"V2A", [](Made motion) { return v2a_file(motion); }, v2a},
         {"SMC", [](Made motion) { return smc_file(motion); }, smc},

@@ -14,15 +14,15 @@ std::string at2(const std::string& sampling,
            sampling + "\n" + data;
 }
 
-const std::string sound = at2("NPTS=      3, DT=   .0100 SEC");
-const Values samples{0.001, -0.025, 0.5};
+const std::string sound_at2 = at2("NPTS=      3, DT=   .0100 SEC");
+const Values at2_samples{0.001, -0.025, 0.5};
 
 TEST(At2, GivesItsSamplesInG)
 {
-    const RecordFile file = parse_record(sound, "a.txt");
+    const RecordFile file = parse_record(sound_at2, "a.txt");
     EXPECT_EQ(file.format, "AT2");
     ASSERT_EQ(file.components.size(), 1);
-    EXPECT_EQ(file.components[0].acceleration, samples);
+    EXPECT_EQ(file.components[0].acceleration, at2_samples);
     EXPECT_EQ(file.components[0].unit, AccelerationUnit::g);
     EXPECT_EQ(file.components[0].time_step, 0.01);
 }
@@ -32,18 +32,19 @@ TEST(At2, KeepsTheFourLinesOfItsHeader)
     const std::vector<std::string> header{
         "PEER NGA STRONG MOTION DATABASE RECORD", "Somewhere-01, 1/17/1994, A Station, 230",
         "ACCELERATION TIME SERIES IN UNITS OF G", "NPTS=      3, DT=   .0100 SEC"};
-    EXPECT_EQ(component_of(sound).header, header);
+    EXPECT_EQ(component_of(sound_at2).header, header);
 }
 
 TEST(At2, NamesTheComponentAtTheEndOfItsSecondLine)
 {
-    EXPECT_EQ(component_of(sound).name, "230");
+    EXPECT_EQ(component_of(sound_at2).name, "230");
 }
 
 TEST(At2, WithoutCommaInItsSecondLineHasAComponentWithoutName)
 {
     EXPECT_EQ(
-        component_of(with(sound, "Somewhere-01, 1/17/1994, A Station, 230", "a station")).name, "");
+        component_of(with(sound_at2, "Somewhere-01, 1/17/1994, A Station, 230", "a station")).name,
+        "");
 }
 
 // clang-format off
@@ -64,7 +65,7 @@ TEST(At2, StatesTheNumberOfPointsAndTheTimeStepInItsFourthLine)
         {"OldLowerCase", "3, 0.0050 npts, dt", 0.005}}) {
         const RecordComponent component = component_of(at2(line));
         EXPECT_EQ(component.time_step, time_step) << name;
-        EXPECT_EQ(component.acceleration, samples) << name;
+        EXPECT_EQ(component.acceleration, at2_samples) << name;
     }
 }
 // clang-format on
@@ -72,37 +73,37 @@ TEST(At2, StatesTheNumberOfPointsAndTheTimeStepInItsFourthLine)
 TEST(At2, MayHaveTheLineEndsOfAnySystem)
 {
     for (const char* end : {"\n", "\r\n", "\r\r\n"}) {
-        const RecordComponent component = component_of(with_line_ends(sound, end));
-        EXPECT_EQ(component.acceleration, samples);
-        EXPECT_EQ(component.header, component_of(sound).header);
+        const RecordComponent component = component_of(with_line_ends(sound_at2, end));
+        EXPECT_EQ(component.acceleration, at2_samples);
+        EXPECT_EQ(component.header, component_of(sound_at2).header);
     }
 }
 
 TEST(At2, MayEndWithoutLineEndOrWithTheEndOfDosFiles)
 {
-    EXPECT_EQ(component_of(sound.substr(0, sound.size() - 1)).acceleration, samples);
-    EXPECT_EQ(component_of(sound + "\x1a").acceleration, samples);
-    EXPECT_EQ(component_of(sound + "\n \t \n").acceleration, samples);
+    EXPECT_EQ(component_of(sound_at2.substr(0, sound_at2.size() - 1)).acceleration, at2_samples);
+    EXPECT_EQ(component_of(sound_at2 + "\x1a").acceleration, at2_samples);
+    EXPECT_EQ(component_of(sound_at2 + "\n \t \n").acceleration, at2_samples);
 }
 
 TEST(At2, MayEndWithPadding)
 {
     for (const std::string& padding : paddings()) {
-        const RecordFile file = parse_record(sound + padding, "a.txt");
+        const RecordFile file = parse_record(sound_at2 + padding, "a.txt");
         EXPECT_EQ(file.components.back().acceleration,
-                  parse_record(sound, "a.txt").components.back().acceleration);
+                  parse_record(sound_at2, "a.txt").components.back().acceleration);
     }
 }
 
 TEST(At2, MayBeginWithTheByteOrderMarkOfUtf8)
 {
-    EXPECT_EQ(component_of("\xef\xbb\xbf" + sound).header, component_of(sound).header);
+    EXPECT_EQ(component_of("\xef\xbb\xbf" + sound_at2).header, component_of(sound_at2).header);
 }
 
 TEST(At2, KeepsHeadersInAnyEncodingButNamesItsComponentInUtf8)
 {
     const RecordComponent component =
-        component_of(with(sound, "A Station, 230", "M\xe9xico, \xd1"));
+        component_of(with(sound_at2, "A Station, 230", "M\xe9xico, \xd1"));
     EXPECT_EQ(component.header[1], "Somewhere-01, 1/17/1994, M\xe9xico, \xd1");
     EXPECT_EQ(component.name, "\u00d1");
 }
@@ -128,12 +129,12 @@ TEST(At2, IsRefusedWithFileLineAndReason)
 {
     expect_refused({
         {"FewerSamples", at2("NPTS= 4, DT= .01 SEC"),
-            "a.txt:6: the file ends after 3 samples, but NPTS announces 4 in line 4. Give the complete file."},
+            "a.txt:6: the file ends after 3 at2_samples, but NPTS announces 4 in line 4. Give the complete file."},
         {"MoreSamples", at2("NPTS= 2, DT= .01 SEC"),
-            "a.txt:6: \"0.5\" follows the last of the 2 samples that NPTS announces in line 4. Correct NPTS or "
+            "a.txt:6: \"0.5\" follows the last of the 2 at2_samples that NPTS announces in line 4. Correct NPTS or "
             "remove the rest."},
         {"NoSamples", at2("NPTS= 3, DT= .01 SEC", ""),
-            "a.txt:4: the file ends after 0 samples, but NPTS announces 3 in line 4. Give the complete file."},
+            "a.txt:4: the file ends after 0 at2_samples, but NPTS announces 3 in line 4. Give the complete file."},
         {"NoPoints", at2("NPTS= 0, DT= .01 SEC"),
             "a.txt:4: NPTS is \"0\", but must be an integer from 1 to 10000000. Correct it, or give another "
             "record."},
@@ -181,49 +182,49 @@ TEST(At2, IsRefusedWithFileLineAndReason)
             "a.txt:4: \"NaN\" is not finite. Give a record without gaps."},
         {"AWordAsTimeStep", at2("NPTS= 3, DT= unknown"),
             "a.txt:4: \"unknown\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-        {"Velocities", with(sound, "ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY TIME SERIES IN UNITS OF CM/S"),
+        {"Velocities", with(sound_at2, "ACCELERATION TIME SERIES IN UNITS OF G", "VELOCITY TIME SERIES IN UNITS OF CM/S"),
             "a.txt:3: \"VELOCITY TIME SERIES IN UNITS OF CM/S\" does not announce accelerations. Give the file "
             "of the acceleration."},
-        {"NotANumber", with(sound, "0.5", "0.5 rest"),
-            "a.txt:6: \"rest\" follows the last of the 3 samples that NPTS announces in line 4. Correct NPTS or "
+        {"NotANumber", with(sound_at2, "0.5", "0.5 rest"),
+            "a.txt:6: \"rest\" follows the last of the 3 at2_samples that NPTS announces in line 4. Correct NPTS or "
             "remove the rest."},
-        {"AWordAmongTheSamples", with(sound, "-.25E-01", "missing"),
+        {"AWordAmongTheSamples", with(sound_at2, "-.25E-01", "missing"),
             "a.txt:5: \"missing\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-        {"OverflowOfAFortranField", with(sound, "-.25E-01", "********"),
+        {"OverflowOfAFortranField", with(sound_at2, "-.25E-01", "********"),
             "a.txt:5: \"********\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-        {"ADecimalComma", with(sound, "0.5", "0,5"),
+        {"ADecimalComma", with(sound_at2, "0.5", "0,5"),
             "a.txt:6: \"0,5\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
         {"ADecimalCommaInTheTimeStep", at2("NPTS= 3, DT= 1,5 SEC"),
             "a.txt:4: \"NPTS= 3, DT= 1,5 SEC\" is not understood. Write only the number of points and the time step "
             "in seconds, as in NPTS= 4000, DT= .01 SEC."},
-        {"TwoSigns", with(sound, "0.5", "+-0.5"),
+        {"TwoSigns", with(sound_at2, "0.5", "+-0.5"),
             "a.txt:6: \"+\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-        {"Hexadecimals", with(sound, "0.5", "0x1p3"),
+        {"Hexadecimals", with(sound_at2, "0.5", "0x1p3"),
             "a.txt:6: \"0x1p3\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-        {"AnExponentWithoutDigits", with(sound, "0.5", "5E"),
+        {"AnExponentWithoutDigits", with(sound_at2, "0.5", "5E"),
             "a.txt:6: \"5E\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-        {"Nan", with(sound, "0.5", "NaN"), "a.txt:6: \"NaN\" is not finite. Give a record without gaps."},
-        {"Infinity", with(sound, "0.5", "-Infinity"),
+        {"Nan", with(sound_at2, "0.5", "NaN"), "a.txt:6: \"NaN\" is not finite. Give a record without gaps."},
+        {"Infinity", with(sound_at2, "0.5", "-Infinity"),
             "a.txt:6: \"-Infinity\" is not finite. Give a record without gaps."},
-        {"Overflow", with(sound, "0.5", "1E+999"),
+        {"Overflow", with(sound_at2, "0.5", "1E+999"),
             "a.txt:6: \"1E+999\" is outside the range of double precision. Correct it."},
-        {"ALongWord", with(sound, "0.5", std::string(100, 'x')),
+        {"ALongWord", with(sound_at2, "0.5", std::string(100, 'x')),
             "a.txt:6: \"xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...\" is not a number. Write numbers as in 0.5, "
             "-.5E-01 or -.5D-01."},
-        {"AWordInAnotherEncoding", with(sound, "0.5", "\"\xe9\\"),
+        {"AWordInAnotherEncoding", with(sound_at2, "0.5", "\"\xe9\\"),
             "a.txt:6: \"\\\"\\xe9\\\\\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."}});
 }
 // clang-format on
 
 TEST(At2, RefusesAUnitBecauseItStatesItsOwn)
 {
-    EXPECT_EQ(refusal_of(sound, {.time_step = {}, .unit = AccelerationUnit::cm_per_s2}),
+    EXPECT_EQ(refusal_of(sound_at2, {.time_step = {}, .unit = AccelerationUnit::cm_per_s2}),
               "a.txt: units = cm/s2 was given, but this AT2 file is in g. Remove units.");
 }
 
 TEST(At2, RefusesATimeStepBecauseItStatesItsOwn)
 {
-    EXPECT_EQ(refusal_of(sound, {.time_step = 0.02, .unit = {}}),
+    EXPECT_EQ(refusal_of(sound_at2, {.time_step = 0.02, .unit = {}}),
               "a.txt: time_step = 0.02 was given, but the AT2 file states its own, 0.01 s. Remove "
               "time_step.");
 }
@@ -231,7 +232,7 @@ TEST(At2, RefusesATimeStepBecauseItStatesItsOwn)
 TEST(At2, RefusesAHeaderThatFillsTheMemory)
 {
     EXPECT_EQ(
-        refusal_of(with(sound, "PEER", std::string(2 << 20, 'x'))),
+        refusal_of(with(sound_at2, "PEER", std::string(2 << 20, 'x'))),
         "a.txt:1: header and comments are larger than 1024 KiB, the maximum. Remove comments.");
 }
 

@@ -54,7 +54,7 @@ std::string channel(const Options& options = {})
            options.data + "End-of-data for Chan  1 acceleration\n";
 }
 
-const Values samples{-.00001, .00013, 1.5, 2, 3, 4, 5, 6, 7, -100.5};
+const Values cosmos_samples{-.00001, .00013, 1.5, 2, 3, 4, 5, 6, 7, -100.5};
 
 TEST(Cosmos, GivesTheSamplesInTheUnitThatItStates)
 {
@@ -62,7 +62,7 @@ TEST(Cosmos, GivesTheSamplesInTheUnitThatItStates)
     EXPECT_EQ(file.format, "COSMOS");
     ASSERT_EQ(file.components.size(), 1);
     EXPECT_EQ(file.components[0].unit, AccelerationUnit::cm_per_s2);
-    EXPECT_EQ(file.components[0].acceleration, samples);
+    EXPECT_EQ(file.components[0].acceleration, cosmos_samples);
     EXPECT_EQ(file.components[0].name, "340 deg");
     EXPECT_FALSE(file.components[0].is_uncorrected);
     Options in_g{.units = "g (02)"};
@@ -116,17 +116,18 @@ TEST(Cosmos, IsNotCorrectedIfTheFileSaysSo)
     EXPECT_TRUE(component_of(channel(raw)).is_uncorrected);
 }
 
-const Options counts{.stage = "Raw",
-                     .units = "counts (50)",
-                     .integers = {{1, "0"}, {2, "1"}, {3, "50"}},
-                     .reals = {{22, "0.5"}, {34, "0.005"}, {42, "1.25"}, {47, "1.0"}, {62, "5.0"}},
-                     .format = "(10I8)",
-                     .data = "     103     104     105      97     100      99     101     100     "
-                             "109      82\n"};
+const Options raw_options{
+    .stage = "Raw",
+    .units = "raw_options (50)",
+    .integers = {{1, "0"}, {2, "1"}, {3, "50"}},
+    .reals = {{22, "0.5"}, {34, "0.005"}, {42, "1.25"}, {47, "1.0"}, {62, "5.0"}},
+    .format = "(10I8)",
+    .data = "     103     104     105      97     100      99     101     100     "
+            "109      82\n"};
 
 TEST(Cosmos, GivesCountsWithoutTheirMeanInG)
 {
-    const RecordComponent component = component_of(channel(counts));
+    const RecordComponent component = component_of(channel(raw_options));
     EXPECT_EQ(component.unit, AccelerationUnit::g);
     EXPECT_EQ(component.time_step, 0.005);
     EXPECT_TRUE(component.is_uncorrected);
@@ -140,7 +141,7 @@ TEST(Cosmos, GivesCountsWithoutTheirMeanInG)
 /// Counts, with more reals.
 std::string counts_with(const std::vector<std::pair<int, std::string>>& reals)
 {
-    Options options = counts;
+    Options options = raw_options;
     options.reals.insert(options.reals.end(), reals.begin(), reals.end());
     return channel(options);
 }
@@ -188,18 +189,19 @@ TEST(Cosmos, MayHaveAnyFormatOfTheValues)
 TEST(Cosmos, MayHaveAnyNumberOfTextLinesAndComments)
 {
     const std::string text = channel();
-    EXPECT_EQ(component_of(with(text, "Nowhere", "\nmore\nNowhere")).acceleration, samples);
+    EXPECT_EQ(component_of(with(text, "Nowhere", "\nmore\nNowhere")).acceleration, cosmos_samples);
     const std::string comments =
         text.substr(text.find("  2 Comment"), text.find("   10  acc") - text.find("  2 Comment"));
     EXPECT_EQ(component_of(with(text, comments, "   0 Comment line(s) follow\n")).acceleration,
-              samples);
-    EXPECT_EQ(component_of(with(text, "| first\n", " | first\n| second\n")).acceleration, samples);
+              cosmos_samples);
+    EXPECT_EQ(component_of(with(text, "| first\n", " | first\n| second\n")).acceleration,
+              cosmos_samples);
 }
 
 TEST(Cosmos, MayHaveTheLineEndsOfAnySystemAndBlankLines)
 {
     for (const char* end : {"\r\n", "\n\n", "  \r\n"}) {
-        EXPECT_EQ(component_of(with_line_ends(channel(), end)).acceleration, samples);
+        EXPECT_EQ(component_of(with_line_ends(channel(), end)).acceleration, cosmos_samples);
     }
 }
 
@@ -215,7 +217,7 @@ TEST(Cosmos, MayEndWithPadding)
 TEST(Cosmos, MayLackTheLineThatEndsAChannel)
 {
     const std::string text = with(channel(), "End-of-data for Chan  1 acceleration\n", "");
-    EXPECT_EQ(component_of(text).acceleration, samples);
+    EXPECT_EQ(component_of(text).acceleration, cosmos_samples);
     EXPECT_EQ(parse_record(text + text, "a.txt").components.size(), 2);
 }
 
@@ -239,32 +241,32 @@ TEST(Cosmos, IsRefusedWithFileLineAndReason)
         {"ContradictoryUnits", with_value({}, false, 3, "2"),
             "a.txt:38: the unit \"cm/sec2\" contradicts integer 3 of the header, 2. Correct one of them."},
         {"NoUnit", with(channel(), "units=cm/sec2(04),", ""),
-            "a.txt:38: the unit \"\" of the samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
+            "a.txt:38: the unit \"\" of the cosmos_samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
             "usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with their "
             "unit."},
         {"AnotherUnit", channel({.units = "mg(11)"}),
-            "a.txt:38: the unit \"mg\" of the samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
+            "a.txt:38: the unit \"mg\" of the cosmos_samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
             "usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with their "
             "unit."},
         {"ContradictoryTimeSteps", with_value({}, true, 62, "5.0"),
-            "a.txt:28: real 63, the length of the series, is 0.2 s, but 10 samples at 0.005 s are 0.05 s. Give the file "
+            "a.txt:28: real 63, the length of the series, is 0.2 s, but 10 cosmos_samples at 0.005 s are 0.05 s. Give the file "
             "as it was published, or correct the wrong one."},
         {"AContradictoryDuration", with(channel({.reals = {{34, "1.0"}}}), "approx    0 secs", "approx   50 secs"),
-            "a.txt:38: the approximate duration is 50 s, but 10 samples at 1 s are 10 s. Give the file as it was "
+            "a.txt:38: the approximate duration is 50 s, but 10 cosmos_samples at 1 s are 10 s. Give the file as it was "
             "published, or correct the wrong one."},
         {"AnUnknownTimeStep", channel({.reals = {}}),
             "a.txt:17: the time step, real 62 of the header in ms, is unknown or 0. Give a file that states it."},
-        {"CountsOfUnknownSensitivity", with_value(counts, true, 42, "-999"),
-            "a.txt:17: the samples are counts, but reals 22 (microvolts per count), 42 (volts per g) and 47 (gain, "
+        {"CountsOfUnknownSensitivity", with_value(raw_options, true, 42, "-999"),
+            "a.txt:17: the cosmos_samples are raw_options, but reals 22 (microvolts per count), 42 (volts per g) and 47 (gain, "
             "must be 1) of the header are 0.5, -999 and 1. Give the file of volume 1 or 2, in cm/sec2."},
-        {"CountsWithAGain", with_value(counts, true, 47, "10.0"),
-            "a.txt:17: the samples are counts, but reals 22 (microvolts per count), 42 (volts per g) and 47 (gain, "
+        {"CountsWithAGain", with_value(raw_options, true, 47, "10.0"),
+            "a.txt:17: the cosmos_samples are raw_options, but reals 22 (microvolts per count), 42 (volts per g) and 47 (gain, "
             "must be 1) of the header are 0.5, 1.25 and 10. Give the file of volume 1 or 2, in cm/sec2."},
         {"FewerSamples", with(channel(), "7.00000-100.50000", "7.00000"),
             "a.txt:40: the line has 1 column of 10 characters, but must have 2: line 38 announces 10 values of the "
             "series, 8 per line. Give the file as it was published."},
         {"MoreSamples", with(channel(), "7.00000-100.50000\n", "7.00000-100.50000\n   9.00000\n"),
-            "a.txt:41: \"9.00000\" follows the last of the samples that were announced. Correct their number, or give "
+            "a.txt:41: \"9.00000\" follows the last of the cosmos_samples that were announced. Correct their number, or give "
             "the file as it was published."},
         {"NoFormat", with(channel(), "(8F10.5)", ""),
             "a.txt:38: the line states no format of the values, such as Format=(8F10.5). Give the file as it was "

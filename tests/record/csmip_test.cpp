@@ -10,7 +10,7 @@ const std::string accelerations =
 const std::string velocities = "-.00141810 .25000000 -1.5000000 2.00000000 3.00000000 4.00000000 "
                                "5.00000000 6.0000000\n";
 
-/// A channel of ten samples.
+/// A channel of ten csmip_samples.
 std::string channel(const std::string& name)
 {
     return "Corrected accelerogram   99999-L1-14236.52       Chan  1:  " + name +
@@ -36,12 +36,12 @@ std::string channel(const std::string& name)
            "/&  ----------  End of data for channel  1  ----------\n";
 }
 
-const std::string sound = channel("90 Deg") + channel("Up") + channel("360 Deg");
-const Values samples{-0.001239, 0.25, -1.5, 2, 3, 4, 5, 6, 7, 8};
+const std::string sound_csmip = channel("90 Deg") + channel("Up") + channel("360 Deg");
+const Values csmip_samples{-0.001239, 0.25, -1.5, 2, 3, 4, 5, 6, 7, 8};
 
 TEST(Csmip, HasAComponentForEachChannel)
 {
-    const RecordFile file = parse_record(sound, "a.txt");
+    const RecordFile file = parse_record(sound_csmip, "a.txt");
     EXPECT_EQ(file.format, "CSMIP");
     const std::vector<std::string> names{"90 Deg", "Up", "360 Deg"};
     ASSERT_EQ(file.components.size(), 3);
@@ -49,7 +49,7 @@ TEST(Csmip, HasAComponentForEachChannel)
         EXPECT_EQ(file.components[i].name, names[i]);
         EXPECT_EQ(file.components[i].unit, AccelerationUnit::cm_per_s2);
         EXPECT_EQ(file.components[i].time_step, 0.01);
-        EXPECT_EQ(file.components[i].acceleration, samples);
+        EXPECT_EQ(file.components[i].acceleration, csmip_samples);
         EXPECT_FALSE(file.components[i].is_uncorrected);
         EXPECT_EQ(file.components[i].header.size(), 12);
     }
@@ -81,7 +81,7 @@ TEST(Csmip, NamesAChannelByItsDirectionAndNotByItsPlace)
 TEST(Csmip, MayHaveAnyNumberOfChannels)
 {
     EXPECT_EQ(component_of(channel("90 Deg")).name, "90 Deg");
-    EXPECT_EQ(parse_record(sound + sound, "a.txt").components.size(), 6);
+    EXPECT_EQ(parse_record(sound_csmip + sound_csmip, "a.txt").components.size(), 6);
 }
 
 TEST(Csmip, MayBeInCapitalsWithoutFormatOfTheValues)
@@ -143,18 +143,18 @@ TEST(Csmip, ReadsColumnsThatTouch)
 TEST(Csmip, MayHaveTheLineEndsOfAnySystemAndBlankLines)
 {
     for (const char* end : {"\r\n", "\n\n", "   \r\n"}) {
-        const RecordFile file = parse_record(with_line_ends(sound, end), "a.txt");
+        const RecordFile file = parse_record(with_line_ends(sound_csmip, end), "a.txt");
         ASSERT_EQ(file.components.size(), 3);
-        EXPECT_EQ(file.components[2].acceleration, samples);
+        EXPECT_EQ(file.components[2].acceleration, csmip_samples);
     }
 }
 
 TEST(Csmip, MayEndWithPadding)
 {
     for (const std::string& padding : paddings()) {
-        const RecordFile file = parse_record(sound + padding, "a.txt");
+        const RecordFile file = parse_record(sound_csmip + padding, "a.txt");
         EXPECT_EQ(file.components.back().acceleration,
-                  parse_record(sound, "a.txt").components.back().acceleration);
+                  parse_record(sound_csmip, "a.txt").components.back().acceleration);
     }
 }
 
@@ -162,7 +162,7 @@ TEST(Csmip, MayOmitVelocityDisplacementAndEnd)
 {
     const std::string text = channel("Up");
     const std::string only = text.substr(0, text.find("   2 points of veloc"));
-    EXPECT_EQ(component_of(only).acceleration, samples);
+    EXPECT_EQ(component_of(only).acceleration, csmip_samples);
     EXPECT_EQ(parse_record(only + only, "a.txt").components.size(), 2);
 }
 
@@ -171,13 +171,13 @@ TEST(Csmip, IsRefusedWithFileLineAndReason)
 {
     const std::string announces = "  10 points of accel data equally spaced at  .010 sec, in cm/sec2. (8f10.6)";
     expect_refused({
-        {"Velocities", with(sound, announces, "  10 points of veloc data equally spaced at  .010 sec, in cm/sec. (8f10.6)"),
+        {"Velocities", with(sound_csmip, announces, "  10 points of veloc data equally spaced at  .010 sec, in cm/sec. (8f10.6)"),
             "a.txt:12: \"10 points of veloc data equally spaced a...\" does not announce "
             "accelerations. Give the file of the acceleration."},
-        {"FewerSamples", with(sound, "  7.000000  8.000000\n", "  7.000000\n"),
+        {"FewerSamples", with(sound_csmip, "  7.000000  8.000000\n", "  7.000000\n"),
             "a.txt:14: the line has 1 column of 10 characters, but must have 2: line 12 announces 10 values of "
             "acceleration, 8 per line. Give the file as it was published."},
-        {"MoreSamples", with(sound, "  7.000000  8.000000\n", "  7.000000  8.000000\n  9.000000\n"),
+        {"MoreSamples", with(sound_csmip, "  7.000000  8.000000\n", "  7.000000  8.000000\n  9.000000\n"),
             "a.txt:15: \"9.000000\" is not the first line of a channel, such as Corrected accelerogram. Give the file "
             "as it was published."},
         {"AnEarlyEnd", channel("Up").substr(0, channel("Up").find("  7.000000")),
@@ -186,23 +186,23 @@ TEST(Csmip, IsRefusedWithFileLineAndReason)
         {"AnEarlyEndInTheHeader", channel("Up").substr(0, channel("Up").find(announces)),
             "a.txt:11: the channel that begins in line 1 has no line such as 7500 points of accel data equally spaced "
             "at .010 sec, in cm/sec2. (8f10.6). Give the complete file of volume 2."},
-        {"NoUnit", with(sound, "in cm/sec2. ", ""),
-            "a.txt:12: the unit \"\" of the samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
+        {"NoUnit", with(sound_csmip, "in cm/sec2. ", ""),
+            "a.txt:12: the unit \"\" of the csmip_samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
             "usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with their "
             "unit."},
-        {"AnotherUnit", with(sound, "in cm/sec2.", "in g/10."),
-            "a.txt:12: the unit \"g/10.\" of the samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and "
+        {"AnotherUnit", with(sound_csmip, "in cm/sec2.", "in g/10."),
+            "a.txt:12: the unit \"g/10.\" of the csmip_samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and "
             "their usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with "
             "their unit."},
-        {"AnotherUnitOfTheTimeStep", with(sound, ".010 sec, in", "10. msec, in"),
+        {"AnotherUnitOfTheTimeStep", with(sound_csmip, ".010 sec, in", "10. msec, in"),
             "a.txt:12: the time step \"10.\" is followed by \"msec,\", but must be in seconds, as in .010 sec. Correct "
             "it."},
-        {"ContradictoryTimeSteps", with(sound, "intervals of    .010", "intervals of    .005"),
-            "a.txt:7: the interval is .005 s, but that of the samples is 0.01 s. Give the file as it was published, or "
+        {"ContradictoryTimeSteps", with(sound_csmip, "intervals of    .010", "intervals of    .005"),
+            "a.txt:7: the interval is .005 s, but that of the csmip_samples is 0.01 s. Give the file as it was published, or "
             "correct the wrong one."},
-        {"ACutNumber", with(sound, "(8f10.6)", "(10f8.6)"),
+        {"ACutNumber", with(sound_csmip, "(8f10.6)", "(10f8.6)"),
             "a.txt:13: column 1 of 8 characters ends within a number: \"-.0012\". Give the file as it was published."},
-        {"AnUncorrectedRecord", with(sound, "Corrected accelerogram", "Uncorrected accelerogram"),
+        {"AnUncorrectedRecord", with(sound_csmip, "Corrected accelerogram", "Uncorrected accelerogram"),
             "a.txt:1: this is an uncorrected accelerogram (V1A or volume 1). Give the corrected one (V2A or volume 2)."},
         {"AnotherTextBehindAChannel", channel("Up") + "rest\n",
             "a.txt:20: \"rest\" is not the first line of a channel, such as Corrected accelerogram. Give the file as "

@@ -28,7 +28,7 @@ const std::string data =
     "-2.1104E+1-4.7756E+0 1.8436E+1-1.8591E+1-1.5827E+1-1.5471E+1-1.2717E+1-1.1380E+1\n"
     " 2.7397E-1-9.7655E-1\n";
 
-const std::string sound =
+const std::string sound_smc =
     "2 CORRECTED ACCELEROGRAM   \n" + repeated("*\n", 4) +
     "station = Nowhere  component=     43   \n" + repeated("*\n", 5) + repeated(no_integers, 2) +
     "        10    -32768    -32768    -32768    -32768    -32768    -32768    -32768\n" +
@@ -38,7 +38,7 @@ const std::string sound =
 
 TEST(Smc, GivesItsSamplesInCentimetresPerSecondSquared)
 {
-    const RecordFile file = parse_record(sound, "a.txt");
+    const RecordFile file = parse_record(sound_smc, "a.txt");
     EXPECT_EQ(file.format, "SMC");
     ASSERT_EQ(file.components.size(), 1);
     EXPECT_EQ(file.components[0].unit, AccelerationUnit::cm_per_s2);
@@ -49,22 +49,22 @@ TEST(Smc, GivesItsSamplesInCentimetresPerSecondSquared)
 
 TEST(Smc, HasTheTimeStepOfItsSamplesPerSecond)
 {
-    EXPECT_EQ(component_of(sound).time_step, 0.005);
+    EXPECT_EQ(component_of(sound_smc).time_step, 0.005);
 }
 
 TEST(Smc, NamesItsComponent)
 {
-    EXPECT_EQ(component_of(sound).name, "43");
+    EXPECT_EQ(component_of(sound_smc).name, "43");
 }
 
 TEST(Smc, WithoutNamedComponentHasOneWithoutName)
 {
-    EXPECT_EQ(component_of(with(sound, "component=     43", "")).name, "");
+    EXPECT_EQ(component_of(with(sound_smc, "component=     43", "")).name, "");
 }
 
 TEST(Smc, KeepsItsHeaderAndItsComments)
 {
-    const std::vector<std::string> header = component_of(sound).header;
+    const std::vector<std::string> header = component_of(sound_smc).header;
     ASSERT_EQ(header.size(), 29);
     EXPECT_EQ(header.front(), "2 CORRECTED ACCELEROGRAM   ");
     EXPECT_EQ(header.back(), "| a comment");
@@ -72,31 +72,33 @@ TEST(Smc, KeepsItsHeaderAndItsComments)
 
 TEST(Smc, MayBeUncorrected)
 {
-    EXPECT_EQ(component_of(with(sound, "2 CORRECTED", "1 UNCORRECTED")).acceleration.size(), 10);
+    EXPECT_EQ(component_of(with(sound_smc, "2 CORRECTED", "1 UNCORRECTED")).acceleration.size(),
+              10);
 }
 
 TEST(Smc, IsNotCorrectedIfItsTitleSaysSo)
 {
-    EXPECT_FALSE(component_of(sound).is_uncorrected);
-    EXPECT_TRUE(component_of(with(sound, "2 CORRECTED", "1 UNCORRECTED")).is_uncorrected);
+    EXPECT_FALSE(component_of(sound_smc).is_uncorrected);
+    EXPECT_TRUE(component_of(with(sound_smc, "2 CORRECTED", "1 UNCORRECTED")).is_uncorrected);
 }
 
 TEST(Smc, MayHaveNoComments)
 {
-    EXPECT_EQ(component_of(with(sound, "|\n| a comment\n", "")).header.size(), 27);
+    EXPECT_EQ(component_of(with(sound_smc, "|\n| a comment\n", "")).header.size(), 27);
 }
 
 TEST(Smc, MayHaveWiderColumns)
 {
     const std::string wide =
-        with(with(sound, data, "-2.1104000E+01 4.7756000E+00\n"), "        10", "         2");
+        with(with(sound_smc, data, "-2.1104000E+01 4.7756000E+00\n"), "        10", "         2");
     EXPECT_EQ(component_of(wide).acceleration, (Values{-21.104, 4.7756}));
 }
 
 TEST(Smc, MayHaveTheLineEndsOfAnySystem)
 {
     for (const char* end : {"\n", "\r\n", "\r\r\n"}) {
-        EXPECT_EQ(component_of(with_line_ends(sound, end)).header, component_of(sound).header);
+        EXPECT_EQ(component_of(with_line_ends(sound_smc, end)).header,
+                  component_of(sound_smc).header);
     }
 }
 
@@ -112,7 +114,7 @@ TEST(Smc, IsRefusedIfItsSamplesArePairsOfTimesAndAccelerations)
             time += double(1 + random() % 30) / 1000;
         }
         const std::string text =
-            with(with(sound, data, pairs), "        10", fmt::format("{:10}", 2 * count));
+            with(with(sound_smc, data, pairs), "        10", fmt::format("{:10}", 2 * count));
         EXPECT_NE(refusal_of(text).find("the samples are pairs of times and accelerations"),
                   std::string::npos)
             << text;
@@ -122,7 +124,8 @@ TEST(Smc, IsRefusedIfItsSamplesArePairsOfTimesAndAccelerations)
 TEST(Smc, MayEndWithPadding)
 {
     for (const std::string& padding : paddings()) {
-        EXPECT_EQ(component_of(sound + padding).acceleration, component_of(sound).acceleration);
+        EXPECT_EQ(component_of(sound_smc + padding).acceleration,
+                  component_of(sound_smc).acceleration);
     }
 }
 
@@ -131,49 +134,49 @@ TEST(Smc, IsRefusedWithFileLineAndReason)
 {
     const UntrappedFloatingPoint overflows;
     expect_refused({
-        {"Velocities", with(sound, "2 CORRECTED ACCELEROGRAM", "3 VELOCITY"),
+        {"Velocities", with(sound_smc, "2 CORRECTED ACCELEROGRAM", "3 VELOCITY"),
             "a.txt:1: \"3 VELOCITY\" does not announce accelerations. Give the file of the acceleration."},
-        {"Displacements", with(sound, "2 CORRECTED ACCELEROGRAM", "4 DISPLACEMENT"),
+        {"Displacements", with(sound_smc, "2 CORRECTED ACCELEROGRAM", "4 DISPLACEMENT"),
             "a.txt:1: \"4 DISPLACEMENT\" does not announce accelerations. Give the file of the acceleration."},
-        {"ResponseSpectra", with(sound, "2 CORRECTED ACCELEROGRAM", "5 RESPONSE SPECTRA"),
+        {"ResponseSpectra", with(sound_smc, "2 CORRECTED ACCELEROGRAM", "5 RESPONSE SPECTRA"),
             "a.txt:1: \"5 RESPONSE SPECTRA\" does not announce accelerations. Give the file of the acceleration."},
-        {"FewerSamples", with(sound, "-9.7655E-1", ""),
+        {"FewerSamples", with(sound_smc, "-9.7655E-1", ""),
             "a.txt:31: the file ends after 9 samples, but the header announces 10 in line 14. Give the complete "
             "file."},
-        {"MoreSamples", with(sound, "-9.7655E-1", "-9.7655E-1-9.7655E-1"),
+        {"MoreSamples", with(sound_smc, "-9.7655E-1", "-9.7655E-1-9.7655E-1"),
             "a.txt:31: \"-9.7655E-1\" follows the last of the 10 samples that the header announces in line 14. "
             "Correct the header or remove the rest."},
-        {"AnEarlyEnd", sound.substr(0, sound.find("| a comment")),
+        {"AnEarlyEnd", sound_smc.substr(0, sound_smc.find("| a comment")),
             "a.txt:28: the file ends after 0 samples, but the header announces 10 in line 14. Give the complete "
             "file."},
-        {"AnEarlyEndInTheHeader", sound.substr(0, sound.find("        10")),
+        {"AnEarlyEndInTheHeader", sound_smc.substr(0, sound_smc.find("        10")),
             "a.txt:13: the file ends within the header. Give the complete file."},
-        {"AnUnknownNumberOfSamples", with(sound, "        10", "    -32768"),
+        {"AnUnknownNumberOfSamples", with(sound_smc, "        10", "    -32768"),
             "a.txt:14: the number of samples, columns 1 to 10, is \"-32768\", which stands for an unknown number. Give a "
             "file that states it."},
-        {"TooManySamples", with(sound, "        10", "2000000000"),
+        {"TooManySamples", with(sound_smc, "        10", "2000000000"),
             "a.txt:14: the number of samples, columns 1 to 10, is \"2000000000\", but must be an integer from 1 to "
             "10000000. Correct it, or give another record."},
-        {"AnUnknownRate", with(sound, "  0.2000000E+03", "  0.1700000E+39"),
+        {"AnUnknownRate", with(sound_smc, "  0.2000000E+03", "  0.1700000E+39"),
             "a.txt:18: the number of samples per second is 0.1700000E+39, which stands for an unknown number: the samples "
             "are not at even times, but pairs of times and accelerations. Interpolate the accelerations at even times, "
             "and give both as text."},
-        {"ARateOfZero", with(sound, "  0.2000000E+03", "  0.0000000E+00"),
+        {"ARateOfZero", with(sound_smc, "  0.2000000E+03", "  0.0000000E+00"),
             "a.txt:18: the number of samples per second is \"0.0000000E+00\", but must be above 0, and its "
             "inverse finite. Correct it."},
-        {"ARateWithoutInverse", with(sound, "  0.2000000E+03", " 0.2000000E-320"),
+        {"ARateWithoutInverse", with(sound_smc, "  0.2000000E+03", " 0.2000000E-320"),
             "a.txt:18: the number of samples per second is \"0.2000000E-320\", but must be above 0, and its "
             "inverse finite. Correct it."},
-        {"AMissingRate", with(sound, "  0.2000000E+03", "               "),
+        {"AMissingRate", with(sound_smc, "  0.2000000E+03", "               "),
             "a.txt:18: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-        {"Overflow", with(sound, "-9.7655E-1", "**********"),
+        {"Overflow", with(sound_smc, "-9.7655E-1", "**********"),
             "a.txt:31: \"2.7397E-1**********\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."}});
 }
 // clang-format on
 
 TEST(Smc, RefusesAUnitBecauseItStatesItsOwn)
 {
-    EXPECT_EQ(refusal_of(sound, in_g),
+    EXPECT_EQ(refusal_of(sound_smc, in_g),
               "a.txt: units = g was given, but this SMC file is in cm/s2. Remove units.");
 }
 

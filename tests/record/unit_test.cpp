@@ -10,8 +10,8 @@ namespace overturn {
 namespace {
 
 /// An AT2 file with these lines of the database, of the unit and of the sampling.
-std::string at2(const std::string& unit_line, const std::string& first_line = "PEER",
-                const std::string& sampling = "NPTS= 2, DT= .01 SEC")
+std::string at2_with_unit(const std::string& unit_line, const std::string& first_line = "PEER",
+                          const std::string& sampling = "NPTS= 2, DT= .01 SEC")
 {
     return first_line + "\nSan Fernando, 2/9/1971, LA - Unit 2 Gals Bldg. G, 230\n" + unit_line +
            "\n" + sampling + "\n.5 -1\n";
@@ -75,7 +75,7 @@ TEST(AStatedUnit, OfAnAt2FileIsUsedIfItIsUnderstoodAndRefusedOtherwise)
 {
     for (const auto& [factor, lines] : groups) {
         for (const std::string& line : lines) {
-            EXPECT_EQ(factor_of(at2(line)), factor) << line;
+            EXPECT_EQ(factor_of(at2_with_unit(line)), factor) << line;
         }
     }
 }
@@ -83,10 +83,11 @@ TEST(AStatedUnit, OfAnAt2FileIsUsedIfItIsUnderstoodAndRefusedOtherwise)
 TEST(AStatedUnit, OfAnAt2FileIsRefusedInAnyLineButTheTitle)
 {
     for (const char* title : {"ACCELERATION TIME SERIES", "ACCELERATION IN UNITS OF G"}) {
-        EXPECT_EQ(factor_of(at2(title, "PEER, UNITS: CM/S/S")), -1);
-        EXPECT_EQ(factor_of(at2(title, "PEER", "NPTS= 2, DT= .01 SEC, UNITS OF MM/S/S")), -1);
-        EXPECT_EQ(factor_of(at2(title, "PEER", "NPTS= 2, DT= .01 SEC, CM/S/S")), -1);
-        EXPECT_EQ(factor_of(at2(title, "PEER", "2 .01 NPTS, DT, IN G/10")), -1);
+        EXPECT_EQ(factor_of(at2_with_unit(title, "PEER, UNITS: CM/S/S")), -1);
+        EXPECT_EQ(factor_of(at2_with_unit(title, "PEER", "NPTS= 2, DT= .01 SEC, UNITS OF MM/S/S")),
+                  -1);
+        EXPECT_EQ(factor_of(at2_with_unit(title, "PEER", "NPTS= 2, DT= .01 SEC, CM/S/S")), -1);
+        EXPECT_EQ(factor_of(at2_with_unit(title, "PEER", "2 .01 NPTS, DT, IN G/10")), -1);
     }
 }
 
@@ -121,14 +122,14 @@ TEST(AStatedUnit, InAnySpellingCaseAndContextIsUnderstoodOrRefusedButNeverG)
             [random() % (unit.find_first_of(".k") == unit.npos && std::isalpha(unit[0]) ? 5 : 1)];
         const std::string line = "Acceleration time series " + before + unit + after;
         const double factor = length == "mm" ? 1000 : length == "cm" ? 100 : 1;
-        EXPECT_EQ(factor_of(at2(line)), is_understood ? factor : -1) << line;
+        EXPECT_EQ(factor_of(at2_with_unit(line)), is_understood ? factor : -1) << line;
     }
 }
 
 TEST(AStatedUnit, ThatIsNotUnderstoodIsNamedWithTheWaysToStateIt)
 {
     EXPECT_EQ(
-        refusal_of(at2("ACCELERATION TIME SERIES IN G/10")),
+        refusal_of(at2_with_unit("ACCELERATION TIME SERIES IN G/10")),
         "a.txt:3: \"ACCELERATION TIME SERIES IN G/10\" does not state a unit that is understood, "
         "such as UNITS OF G or CM/SEC/SEC, as the only one of the header and without a "
         "factor. Give one of g, m/s2, cm/s2, mm/s2, gal: scene.units in a job, --set "
@@ -139,9 +140,9 @@ TEST(AStatedUnit, ThatIsNotUnderstoodOrMissingMayBeGiven)
 {
     const RecordOptions in_gal{.time_step = {}, .unit = AccelerationUnit::gal};
     for (const char* line : {"ACCELERATION IN G/10", "ACCELERATION TIME SERIES"}) {
-        EXPECT_EQ(component_of(at2(line), in_gal).unit, AccelerationUnit::gal) << line;
+        EXPECT_EQ(component_of(at2_with_unit(line), in_gal).unit, AccelerationUnit::gal) << line;
     }
-    EXPECT_EQ(refusal_of(at2("ACCELERATION IN CM/S/S"), in_g),
+    EXPECT_EQ(refusal_of(at2_with_unit("ACCELERATION IN CM/S/S"), in_g),
               "a.txt: units = g was given, but this AT2 file is in cm/s2. Remove units.");
 }
 
@@ -413,7 +414,8 @@ TEST(AStatedUnit, OfTheTimesOfATextIsSeconds)
 TEST(AStatedUnit, OfTheTimeStepIsSeconds)
 {
     const auto text = [](const std::string& step) {
-        return at2("ACCELERATION TIME SERIES IN UNITS OF G", "PEER", "NPTS= 2, DT= " + step);
+        return at2_with_unit("ACCELERATION TIME SERIES IN UNITS OF G", "PEER",
+                             "NPTS= 2, DT= " + step);
     };
     for (const char* seconds : {"0.01 SEC", "0.01 sec,", "0.01", ".0100 S", "0.01SEC"}) {
         EXPECT_EQ(component_of(text(seconds)).time_step, 0.01) << seconds;

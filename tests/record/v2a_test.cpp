@@ -57,11 +57,11 @@ std::string component(const std::string& name, double first)
     return text + block(first) + block(0) + block(-1);
 }
 
-const std::string sound = component("N28W", -3) + component("S62W", 10) + component("Up", -50);
+const std::string sound_v2a = component("N28W", -3) + component("S62W", 10) + component("Up", -50);
 
 TEST(V2a, HasThreeComponentsInMillimetresPerSecondSquared)
 {
-    const RecordFile file = parse_record(sound, "a.txt");
+    const RecordFile file = parse_record(sound_v2a, "a.txt");
     EXPECT_EQ(file.format, "V2A");
     ASSERT_EQ(file.components.size(), 3);
     for (const RecordComponent& part : file.components) {
@@ -73,7 +73,7 @@ TEST(V2a, HasThreeComponentsInMillimetresPerSecondSquared)
 
 TEST(V2a, NamesItsComponents)
 {
-    const RecordFile file = parse_record(sound, "a.txt");
+    const RecordFile file = parse_record(sound_v2a, "a.txt");
     ASSERT_EQ(file.components.size(), 3);
     EXPECT_EQ(file.components[0].name, "N28W");
     EXPECT_EQ(file.components[1].name, "S62W");
@@ -82,7 +82,7 @@ TEST(V2a, NamesItsComponents)
 
 TEST(V2a, KeepsTheAccelerationOnly)
 {
-    const RecordFile file = parse_record(sound, "a.txt");
+    const RecordFile file = parse_record(sound_v2a, "a.txt");
     ASSERT_EQ(file.components.size(), 3);
     EXPECT_EQ(file.components[0].acceleration, (Values{-3, -2, -1, 0, 1, 2, 3, 4, 5, 6, 7, 8}));
     EXPECT_EQ(file.components[2].acceleration.front(), -50);
@@ -90,7 +90,7 @@ TEST(V2a, KeepsTheAccelerationOnly)
 
 TEST(V2a, KeepsTheHeaderOfEachComponent)
 {
-    const RecordFile file = parse_record(sound, "a.txt");
+    const RecordFile file = parse_record(sound_v2a, "a.txt");
     ASSERT_EQ(file.components.size(), 3);
     EXPECT_EQ(file.components[1].header.front(),
               "Corrected accelerogram 20200101_000000_NONE_20 Nobody");
@@ -99,7 +99,7 @@ TEST(V2a, KeepsTheHeaderOfEachComponent)
 
 TEST(V2a, ReadsColumnsThatTouch)
 {
-    std::string text = with(sound, "    -3.0    -2.0    -1.0", "-11024.7100000.0-20000.0");
+    std::string text = with(sound_v2a, "    -3.0    -2.0    -1.0", "-11024.7100000.0-20000.0");
     text = with(text, "peak      8.0", "peak 100000.0");
     const Values values = parse_record(text, "a.txt").components.at(0).acceleration;
     EXPECT_EQ(values[0], -11024.7);
@@ -115,7 +115,7 @@ TEST(V2a, MayHaveFewerComponents)
 TEST(V2a, MayHaveTheLineEndsOfAnySystem)
 {
     for (const char* end : {"\n", "\r\n", "\r\r\n", "  \r\n"}) {
-        const RecordFile file = parse_record(with_line_ends(sound, end), "a.txt");
+        const RecordFile file = parse_record(with_line_ends(sound_v2a, end), "a.txt");
         ASSERT_EQ(file.components.size(), 3);
         EXPECT_EQ(file.components[2].acceleration.back(), -39);
     }
@@ -123,15 +123,15 @@ TEST(V2a, MayHaveTheLineEndsOfAnySystem)
 
 TEST(V2a, MayEndWithBlankLines)
 {
-    EXPECT_EQ(parse_record(sound + "\n   \n", "a.txt").components.size(), 3);
+    EXPECT_EQ(parse_record(sound_v2a + "\n   \n", "a.txt").components.size(), 3);
 }
 
 TEST(V2a, MayEndWithPadding)
 {
     for (const std::string& padding : paddings()) {
-        const RecordFile file = parse_record(sound + padding, "a.txt");
+        const RecordFile file = parse_record(sound_v2a + padding, "a.txt");
         EXPECT_EQ(file.components.back().acceleration,
-                  parse_record(sound, "a.txt").components.back().acceleration);
+                  parse_record(sound_v2a, "a.txt").components.back().acceleration);
     }
 }
 
@@ -149,46 +149,46 @@ const std::string counts = "   65536     250     250      12      12      12";
 TEST(V2a, IsRefusedWithFileLineAndReason)
 {
     expect_refused({
-        {"FewerSamples", with(sound, "    -3.0    -2.0    -1.0", "    -2.0    -1.0"),
+        {"FewerSamples", with(sound_v2a, "    -3.0    -2.0    -1.0", "    -2.0    -1.0"),
             "a.txt:27: the line has 9 columns of 8 characters, but must have 10: line 20 announces 12 values of "
             "acceleration, 10 per line. Give the file as it was published."},
-        {"MoreSamples", with(sound, "     7.0     8.0\n", "     7.0     8.0     9.0\n"),
+        {"MoreSamples", with(sound_v2a, "     7.0     8.0\n", "     7.0     8.0     9.0\n"),
             "a.txt:28: the line has 3 columns of 8 characters, but must have 2: line 20 announces 12 values of "
             "acceleration, 10 per line. Give the file as it was published."},
-        {"AMissingLine", with(sound, "     7.0     8.0\n", ""),
+        {"AMissingLine", with(sound_v2a, "     7.0     8.0\n", ""),
             "a.txt:28: the line has 10 columns of 8 characters, but must have 2: line 20 announces 12 values of "
             "acceleration, 10 per line. Give the file as it was published."},
-        {"AnEarlyEnd", sound.substr(0, sound.size() - block(-1).size()),
+        {"AnEarlyEnd", sound_v2a.substr(0, sound_v2a.size() - block(-1).size()),
             "a.txt:94: the file ends after 0 of the 12 values of displacement that line 84 announces. Give the "
             "complete file."},
-        {"AnEarlyEndInTheHeader", sound.substr(0, sound.find("   65536")),
+        {"AnEarlyEndInTheHeader", sound_v2a.substr(0, sound_v2a.find("   65536")),
             "a.txt:19: the file ends within the header. Give the complete file."},
-        {"AGap", with(sound, "    -2.0", "        "),
+        {"AGap", with(sound_v2a, "    -2.0", "        "),
             "a.txt:27: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-        {"Nan", with(sound, "    -2.0", "     nan"),
+        {"Nan", with(sound_v2a, "    -2.0", "     nan"),
             "a.txt:27: \"nan\" is not finite. Give a record without gaps."},
-        {"NoPoints", with(sound, counts, "   65536     250     250       0      12      12"),
+        {"NoPoints", with(sound_v2a, counts, "   65536     250     250       0      12      12"),
             "a.txt:20: the number of values of acceleration is \"0\", but must be an integer from 1 to 10000000. "
             "Correct it, or give another record."},
-        {"TooManyPoints", with(sound, counts, "   65536     250     25012345678      12      12"),
+        {"TooManyPoints", with(sound_v2a, counts, "   65536     250     25012345678      12      12"),
             "a.txt:20: the number of values of acceleration is \"12345678\", but must be an integer from 1 to "
             "10000000. Correct it, or give another record."},
-        {"NegativeVelocities", with(sound, counts, "   65536     250     250      12      -1      12"),
+        {"NegativeVelocities", with(sound_v2a, counts, "   65536     250     250      12      -1      12"),
             "a.txt:20: the number of values of velocity is \"-1\", but must be an integer from 0 to 10000000. "
             "Correct it, or give another record."},
-        {"ATimeStepOfZero", with(sound, "  0.0050  0.0200", "  0.0050  0.0000"),
+        {"ATimeStepOfZero", with(sound_v2a, "  0.0050  0.0200", "  0.0050  0.0000"),
             "a.txt:23: the time step is 0 s, but must be above 0. Correct it."},
-        {"AMissingTimeStep", with(sound, "  0.0050  0.0200", "  0.0050        "),
+        {"AMissingTimeStep", with(sound_v2a, "  0.0050  0.0200", "  0.0050        "),
             "a.txt:23: \"\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},
-        {"AnotherUnit", with(sound, "8.0 mm/s/s at   0.22 sec     rms      4.3 mm/s/s", "8.0 cm/s/s"),
+        {"AnotherUnit", with(sound_v2a, "8.0 mm/s/s at   0.22 sec     rms      4.3 mm/s/s", "8.0 cm/s/s"),
             "a.txt:14: \"Acceleration:  peak      8.0 cm/s/s\" does not state the unit mm/s/s. Give the values as "
             "text with their unit."},
-        {"AComponentWithoutName", with(sound, "Component N28W", "Direction N28W"),
+        {"AComponentWithoutName", with(sound_v2a, "Component N28W", "Direction N28W"),
             "a.txt:13: \"Direction N28W  Some Accelerometer Axis\" does not name the component. Write it as in "
             "Component N28W."},
-        {"UncorrectedData", with(sound, "Corrected", "Uncorrected"),
+        {"UncorrectedData", with(sound_v2a, "Corrected", "Uncorrected"),
             "a.txt:1: this is an uncorrected accelerogram (V1A or volume 1). Give the corrected one (V2A or volume 2)."},
-        {"AFourthComponent", sound + component("Down", 1),
+        {"AFourthComponent", sound_v2a + component("Down", 1),
             "a.txt:97: more text follows the last of the 3 components. Remove it."},
         {"AnotherTextBehindAComponent", component("Up", 1) + std::string("rest\n") + component("N", 1),
             "a.txt:33: \"rest\" is not the first line of a channel, such as Corrected accelerogram. Give the "
@@ -198,7 +198,7 @@ TEST(V2a, IsRefusedWithFileLineAndReason)
 
 TEST(V2a, RefusesAUnitBecauseItStatesItsOwn)
 {
-    EXPECT_EQ(refusal_of(sound, in_g),
+    EXPECT_EQ(refusal_of(sound_v2a, in_g),
               "a.txt: units = g was given, but this V2A file is in mm/s2. Remove units.");
 }
 

@@ -143,7 +143,7 @@ std::vector<Scene> scenes(std::mt19937_64& generator)
     return all;
 }
 
-std::vector<Numerics> all_numerics(const Scene& scene)
+std::vector<Numerics> numerics_for(const Scene& scene)
 {
     std::vector<Numerics> all{{Method::taylor, 1e-6}, {Method::taylor, 1e-10}};
     if (!scene.is_under(Under::record)) {
@@ -247,7 +247,7 @@ TEST(TwoSides, AreMirroredBitByBit)
     std::mt19937_64 generator(50);
     for (const Scene& scene : scenes(generator)) {
         const std::vector<Point> points = random_points(scene, generator, 60);
-        for (const Numerics& numerics : all_numerics(scene)) {
+        for (const Numerics& numerics : numerics_for(scene)) {
             const auto outcomes = [&](const std::vector<Point>& of) {
                 return outcomes_of(PointRun(scene, of, widest_kernel()), numerics, all_outputs);
             };
@@ -275,7 +275,7 @@ TEST(TwoSides, HaveEqualBitsInEveryKernelAndBesideEveryNeighbour)
             points[i].frequency /= block.frequency_parameter;
             points[i].block = {block.slenderness, block.restitution};
         }
-        for (const Numerics& numerics : all_numerics(scene)) {
+        for (const Numerics& numerics : numerics_for(scene)) {
             const auto outcomes = [&](const std::vector<Point>& of, Kernel kernel) {
                 return outcomes_of(PointRun(scene, of, kernel), numerics, all_outputs);
             };
@@ -310,7 +310,7 @@ TEST(TwoSides, HaveErrorsWithinTheirBounds)
         for (const int point : run.all()) {
             run.run_in_more_digits<Digits50>(point, exact);
         }
-        for (const Numerics& numerics : all_numerics(scene)) {
+        for (const Numerics& numerics : numerics_for(scene)) {
             const Outcomes found = outcomes_of(run, numerics, all_outputs);
             for (std::size_t i = 0; i < points.size(); ++i) {
                 ++all;
