@@ -80,6 +80,38 @@ class TestASuite(Written):
             self.assertEqual(self.write(*words[1:]), path.read_bytes())
 
 
+class TestASuiteOfComponents(Written):
+    def suite(self, components, folder):
+        self.assertEqual(self.output_of("--suite", "4", "--components", components, "-o", folder), folder + "\n")
+        return {path.name: path.read_text() for path in sorted((self.folder / folder).iterdir())}
+
+    def test_has_names_that_pair_and_the_records_of_a_suite_as_first_components(self):
+        names = [f"0{number}_{end}.AT2" for number in (1, 2, 3, 4) for end in ("H1", "H2", "V")]
+        three, two = self.suite("3", "three"), self.suite("2", "two")
+        self.assertEqual(list(three), names)
+        self.assertEqual(two, {name: text for name, text in three.items() if "V" not in name})
+        self.output_of("--suite", "4")
+        for path in (self.folder / "suite").iterdir():
+            self.assertEqual(path.read_text(), three[f"{path.stem}_H1.AT2"])
+
+    def test_consists_of_records_that_the_command_in_their_header_writes(self):
+        for text in list(self.suite("3", "three").values())[:3]:
+            self.assertEqual(self.write(*text.splitlines()[1].split()[1:]).decode(), text)
+
+    def test_has_equal_horizontal_peaks_half_of_it_upwards_and_independent_noise(self):
+        three = {name: (text.splitlines()[1], np.array(" ".join(text.splitlines()[4:]).split(), float))
+                 for name, text in self.suite("3", "three").items()}
+        for number in ("01", "02", "03", "04"):
+            (first, h1), (second, h2), (third, v) = (three[f"{number}_{end}.AT2"] for end in ("H1", "H2", "V"))
+            peaks = [np.abs(values).max() for values in (h1, h2, v)]
+            self.assertEqual(peaks[0], peaks[1])
+            self.assertAlmostEqual(peaks[2] / peaks[0], 0.5, delta=0.5 * 0.005)  # of three digits
+            self.assertNotIn("--pulse-period", second + third)
+            # Of 120 pairs, the standard deviation is 0.09. Equal noise gives 1.
+            for one, other in ((h1, h2), (h1, v), (h2, v)):
+                self.assertLess(abs(np.corrcoef(one, other)[0, 1]), 0.3)
+
+
 class TestAPulse(Written):
     def test_has_a_velocity_above_that_of_the_noise_and_ends_at_rest(self):
         def velocity(*arguments):
@@ -123,6 +155,11 @@ class TestASyntheticRecordRefused(Written):
         self.refuses(2, "is above a quarter of the duration", "--pulse-period", "6")
         self.refuses(2, "is outside 1 to 9999", "--suite", "0")
         self.refuses(2, "cannot be combined with --suite", "--suite", "3", "--pulse-period", "1")
+
+    def test_of_components_without_a_suite_or_among_other_records(self):
+        self.refuses(2, "--components 3 needs --suite", "--components", "3")
+        self.output_of("--suite", "2")
+        super().refuses(74, "it holds other records, such as 01.AT2", "--suite", "2", "--components", "2")
 
     def test_of_an_output_in_a_missing_folder(self):
         self.refuses(74, "cannot write \"nowhere/a.AT2\"", "-o", "nowhere/a.AT2")

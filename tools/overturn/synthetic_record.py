@@ -15,6 +15,8 @@ example:
   tools/synthetic_record                         # writes synthetic.AT2: 20 s, peak 0.4 g
   tools/synthetic_record --seed 2 --pga 0.2 -o vertical.AT2
   tools/synthetic_record --suite 50 -o suite     # writes suite/01.AT2 to suite/50.AT2
+  tools/synthetic_record --suite 24 --components 3 -o pairs
+                                                 # writes pairs/01_H1.AT2, 01_H2.AT2, 01_V.AT2 to 24_V.AT2
 
 White noise w(t) with the envelope e(t) excites the ground layer of Kanai and Tajimi, whose
 acceleration excites the high-pass filter of Clough and Penzien:
@@ -37,11 +39,20 @@ frequency (median: --ground-frequency) and, in 3 of 10, the period of a pulse (m
 all but the duration are lognormal with a scatter of 0.4. The second line of a file is the command
 that writes it alone.
 
+With --components 2, each motion of a suite has a second horizontal component, with --components 3 a
+vertical one too. Their noise is independent: along their principal axes, the components of ground
+motion are uncorrelated (Penzien and Watabe). The correlation coefficient of two files differs from 0
+by chance only, with a standard deviation of 0.1. Duration, envelope and ground frequency are those of the first component. Both horizontal
+components have the same peak, the vertical one has half of it, as a simple value: the ratios of recorded
+motions vary around it, and are larger near a fault. A pulse is in H1 only, as one that is normal to
+the fault.
+
 The file depends on the arguments only: noise is from NumPy's PCG64, values are rounded to 1e-7 g.
 
   K. Kanai, Bull. Earthq. Res. Inst. 35 (1957) 309-325;  H. Tajimi, Proc. 2nd WCEE (1960) 781-797
   P. Jennings, G. Housner, N. Tsai, Simulated earthquake motions, Caltech (1968)
   R. Clough, J. Penzien, Dynamics of structures (1975)
+  J. Penzien, M. Watabe, Earthq. Eng. Struct. Dyn. 3 (1975) 365-373
   G. Mavroeidis, A. Papageorgiou, Bull. Seism. Soc. Am. 93 (2003) 1099-1131"""
 
 TIME_STEP = 0.01  # [s]
@@ -56,6 +67,9 @@ PULSE_SHARE, PULSE_PERIOD = 0.3, 1.5  # of the records of a suite; median [s]
 DURATIONS = 10.0, 30.0  # of the records of a suite [s]
 SCATTER = 0.4  # of the quantities of a suite: standard deviation of their logarithms [1]
 MOST_RECORDS = 9999
+# Of the components of a motion, in their order: the ends of their names, and their peaks over that of the first one.
+COMPONENTS = {"_H1": 1.0, "_H2": 1.0, "_V": 0.5}
+SEEDS_OF_COMPONENT = MOST_RECORDS + 1  # from those of one component to those of the next
 MARK = "SYNTHETIC RECORD, NO EARTHQUAKE"  # the beginning of a file
 
 
@@ -123,6 +137,14 @@ def of_suite(arguments, number):
         pulse_period=lognormal(PULSE_PERIOD, most=duration / 4) if random.random() < PULSE_SHARE else None)
 
 
+def of_component(first, place):
+    """Returns the arguments of another component of a motion, of which the first one has these."""
+    share = list(COMPONENTS.values())[place]
+    return argparse.Namespace(**{**vars(first), "seed": first.seed + place * SEEDS_OF_COMPONENT,
+                                 "pga": max(float(f"{share * first.pga:.3g}"), LEAST_PGA),
+                                 "pulse_period": None if place else first.pulse_period})
+
+
 def samples(duration, time_step):
     return round(min(duration / time_step, MOST_SAMPLES)) + 1
 
@@ -175,6 +197,8 @@ def read_arguments(argv):
     parser.add_argument("--pulse-period", metavar="SECONDS", type=positive,
                         help="add a velocity pulse of this period")
     parser.add_argument("--suite", metavar="N", type=natural, help="write this many different records")
+    parser.add_argument("--components", metavar="N", type=int, choices=(1, 2, 3), default=1,
+                        help="of each record of a suite: 2 horizontal ones, 3 with a vertical one (default: 1)")
     parser.add_argument("-o", "--output", metavar="OUT.AT2",
                         help="the record (default: synthetic.AT2 in the working directory); with --suite, the "
                              "folder of the records (default: suite)")
@@ -195,6 +219,8 @@ def check(parser, arguments):
                      f"{arguments.duration:g} s")
     if arguments.suite is not None and not 1 <= arguments.suite <= MOST_RECORDS:
         parser.error(f"--suite {arguments.suite} is outside 1 to {MOST_RECORDS}")
+    if arguments.components > 1 and arguments.suite is None:
+        parser.error(f"--components {arguments.components} needs --suite, such as --suite 1 for one motion")
     if arguments.suite and arguments.pulse_period:
         parser.error("--pulse-period cannot be combined with --suite, whose pulses are random")
 
@@ -210,13 +236,16 @@ def main(argv=None):
     if arguments.suite:
         make_folder(path)
         digits = max(2, len(str(arguments.suite)))
-        names = [f"{number + 1:0{digits}d}.AT2" for number in range(arguments.suite)]
-        others = sorted({each.name for each in path.glob("*.AT2")} - set(names))
+        ends = list(COMPONENTS)[:arguments.components] if arguments.components > 1 else [""]
+        firsts = {f"{number + 1:0{digits}d}": of_suite(arguments, number) for number in range(arguments.suite)}
+        records = {f"{name}{end}.AT2": of_component(first, place)
+                   for name, first in firsts.items() for place, end in enumerate(ends)}
+        others = sorted({each.name for each in path.glob("*.AT2")} - {*records})
         if others:
             raise OutputError(path, f"it holds other records, such as {others[0]}, which the pattern *.AT2 would "
                                     "add to the suite. Remove them, or choose another folder")
-        for number, name in enumerate(names):
-            write(of_suite(arguments, number), path / name)
+        for name, record in records.items():
+            write(record, path / name)
     else:
         write(arguments, path)
     print(path)
