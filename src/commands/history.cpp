@@ -95,10 +95,14 @@ Job read_job_of_one_point(const HistoryOptions& options)
                     options.job.path, job.blocks->file);
     }
     if (job.motions.size() > 1) {
+        const RecordedMotion& first = job.motions.front();
+        std::string choice = "--set scene.record=" + first.file;
+        choice += first.second.empty() ? "" : " --set scene.second_component=" + first.second;
+        choice += first.vertical.empty() ? "" : " --set scene.vertical=" + first.vertical;
         throw Error(exit_code::usage,
-                    "{} has {} records, but a history needs exactly one. Choose "
-                    "one, for example with --set scene.record={}.",
-                    options.job.path, job.motions.size(), job.motions.front().file);
+                    "{} has {} records, but a history needs exactly one. Choose one, for example "
+                    "with {}.",
+                    options.job.path, job.motions.size(), choice);
     }
     for (const Dimension& dimension : job.problem.grid.dimensions | std::views::reverse) {
         const Axis& values = dimension.columns.front().values;

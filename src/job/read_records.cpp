@@ -1,15 +1,15 @@
+#include "file_pattern.hpp"
 #include "read_steps.hpp"
 
 #include "overturn/record/read_record.hpp"
 #include "overturn/text/mapped.hpp"
 #include "overturn/text/utf8.hpp"
 
-#include <glob.h>
 #include <xxhash.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
-#include <functional>
 #include <initializer_list>
 #include <map>
 #include <set>
@@ -37,20 +37,27 @@ std::string component_text(const Entry& entry)
 struct GivenRecord {
     Entry entry;
     std::string file;
+    Parts parts; ///< empty: it is not given by a pattern
+};
+
+/// A component of a record as the job gives it.
+struct Choice {
+    Entry entry;
+    std::string text; ///< its name, its number in digits, or a file
 };
 
 /// The chosen component of a record. If its file has none of this name, null if the choice may be
 /// another file.
 const RecordComponent* chosen(const GivenRecord& given, const RecordFile& content,
-                              const Entry& choice, bool may_be_file)
+                              const Choice& choice, bool may_be_file)
 {
-    const std::string text = component_text(choice);
-    const bool is_number = choice.node->is_integer();
+    const bool is_number = choice.entry.node->is_integer();
     const ChosenComponent chosen = chosen_component(
-        content, is_number ? ComponentChoice(integer_of(choice)) : ComponentChoice(text),
+        content,
+        is_number ? ComponentChoice(integer_of(choice.entry)) : ComponentChoice(choice.text),
         given.file);
     if (chosen.component == nullptr && (is_number || chosen.is_ambiguous || !may_be_file)) {
-        refuse(choice, " = {} {}", text, chosen.refusal);
+        refuse(choice.entry, " = {} {}", choice.text, chosen.refusal);
     }
     return chosen.component;
 }
@@ -65,108 +72,90 @@ std::string label_of(const RecordFile& file, const RecordComponent& component)
                : component.name;
 }
 
-/// The text as a pattern that matches only itself.
-std::string literally(std::string_view text)
+std::string list_text(const Parts& parts)
 {
-    std::string pattern;
-    for (const char letter : text) {
-        pattern += std::string_view("*?[\\").find(letter) != std::string_view::npos ? "\\" : "";
-        pattern += letter;
-    }
-    return pattern;
+    return fmt::format("{}", fmt::join(mapped(parts, in_quotes), ", "));
 }
 
-/// The text with its first folders literally, as long as they exist under these names in the
-/// folder: `d \[1]/*.AT2` of `d [1]/*.AT2`.
-std::string with_literal_folders(std::string_view text, const fs::path& folder)
+/// For each record, the file that another pattern matches with the same parts.
+std::vector<Choice> paired_files(const Entry& entry, const std::vector<GivenRecord>& records,
+                                 const fs::path& folder)
 {
-    std::size_t literal = 0; // length of the folders that exist, with a slash behind each
-    std::error_code not_found;
-    for (std::size_t end = text.find('/'); end != text.npos; end = text.find('/', literal)) {
-        if (!fs::is_directory(folder / text.substr(0, end + 1), not_found)) {
-            break;
+    const std::string pattern = in_quotes(string_of(entry));
+    const std::vector<Match> matches = files_of(entry, folder);
+    std::map<Parts, std::string> files;
+    for (const Match& match : matches) {
+        files.emplace(match.parts, match.file);
+    }
+    std::set<Parts> of_records;
+    std::vector<Choice> choices;
+    for (const GivenRecord& record : records) {
+        const std::size_t wildcards = matches.front().parts.size();
+        if (record.parts.size() != wildcards) {
+            refuse(entry,
+                   " = {} has {} wildcards, but scene.record, which names {}, has {}. Files are "
+                   "paired by the parts of their names that the wildcards stand for: give patterns "
+                   "with equal numbers of them, or a list with one file for each record.",
+                   pattern, wildcards, in_quotes(record.file), record.parts.size());
         }
-        literal = end + 1;
+        const auto found = files.find(record.parts);
+        if (found == files.end()) {
+            refuse(entry,
+                   " = {} matches no file that pairs with the record {}: none has {} in place of "
+                   "the wildcards. Add the file, or exclude the record.",
+                   pattern, in_quotes(record.file), list_text(record.parts));
+        }
+        of_records.insert(record.parts);
+        choices.push_back({entry, found->second});
     }
-    return literally(text.substr(0, literal)) + std::string(text.substr(literal));
+    for (const Match& match : matches) {
+        if (!of_records.contains(match.parts)) {
+            refuse(entry,
+                   " = {} matches {}, which pairs with no record: scene.record has none with {} in "
+                   "place of the wildcards. Add the record, or exclude the file.",
+                   pattern, in_quotes(match.file), list_text(match.parts));
+        }
+    }
+    return choices;
 }
 
-/// In any order; relative to the folder, unless the pattern is absolute.
-std::vector<std::string> files_that_match(const std::string& pattern, const fs::path& folder)
+/// The choice of a component for each record, with this key of [scene]: one for all records, a list
+/// with one for each, or a pattern of files; empty if the key is missing.
+std::vector<Choice> choices_of(std::string_view key, const Entry& scene,
+                               const std::vector<GivenRecord>& records, const fs::path& folder)
 {
-    const bool is_absolute = fs::path(pattern).is_absolute();
-    const std::string absolute =
-        is_absolute ? pattern : literally((folder / "").string()) + pattern;
-    glob_t found{};
-    std::vector<std::string> files;
-    glob(absolute.c_str(), GLOB_NOSORT, nullptr, &found);
-    for (std::size_t i = 0; i < found.gl_pathc; ++i) {
-        const fs::path path(found.gl_pathv[i]);
-        files.push_back((is_absolute ? path : path.lexically_relative(folder)).string());
+    const auto entry = find(scene, key);
+    if (!entry) {
+        return {};
     }
-    globfree(&found);
-    return files;
-}
-
-/// The files that an entry of scene.record names, which may be a pattern, in byte order. What
-/// exists as it is written is not a pattern.
-std::vector<std::string> files_of(const Entry& entry, const fs::path& folder)
-{
-    const std::string text = string_of(entry);
-    if (text.empty() || text.find('\0') != text.npos) {
-        refuse(entry, " is not a file name. Give the path of a record, relative to the job file.");
+    if (!entry->node->is_array()) {
+        const std::string text = component_text(*entry);
+        return key != "component" && entry->node->is_string() && is_pattern(text, folder)
+                   ? paired_files(*entry, records, folder)
+                   : std::vector<Choice>(records.size(), {*entry, text});
     }
-    std::error_code not_found;
-    if (text.find_first_of("*?[") == text.npos || fs::exists(folder / text, not_found)) {
-        return {text};
+    const std::size_t size =
+        array_size(*entry, "a component, or an array with one for each record", "Remove the key.");
+    if (size != records.size()) {
+        refuse(*entry,
+               " has length {}; the number of records is {}. Give one for each record, or a single "
+               "value for all.",
+               size, records.size());
     }
-    std::vector<std::string> files = files_that_match(with_literal_folders(text, folder), folder);
-    if (files.empty()) {
-        files = files_that_match(text, folder);
+    std::vector<Choice> choices;
+    for (std::size_t i = 0; i < size; ++i) {
+        const Entry one = element(*entry, i);
+        choices.push_back({one, component_text(one)});
     }
-    if (files.empty()) {
-        refuse(entry,
-               " = {} matches no file. It is relative to the job file, and a pattern: write [*], "
-               "[?] and [[] for *, ? and [ themselves.",
-               in_quotes(text));
-    }
-    std::ranges::sort(files);
-    const auto other = std::ranges::find_if_not(files, is_utf8);
-    if (other != files.end()) {
-        refuse(entry, " = {} matches the file {}, whose name is not UTF-8. Rename it.",
-               in_quotes(text), as_utf8(*other));
-    }
-    return files;
+    return choices;
 }
 
 /// What the records of a job have in common.
 struct Reading {
-    const Entry& scene;
     fs::path folder; ///< of the job file
     RecordOptions options;
-    double gravity;    ///< [m/s2]
-    std::size_t count; ///< of records
+    double gravity; ///< [m/s2]
 };
-
-/// The choice of a component for a record, with this key of [scene]: one for all records, or a list
-/// with one for each; nullopt if there is none.
-std::optional<Entry> choice_of_record(std::size_t record, std::string_view key,
-                                      const Reading& reading)
-{
-    auto entry = find(reading.scene, key);
-    if (!entry || !entry->node->is_array()) {
-        return entry;
-    }
-    const std::size_t size =
-        array_size(*entry, "a component, or an array with one for each record", "Remove the key.");
-    if (size != reading.count) {
-        refuse(*entry,
-               " has length {}; the number of records is {}. Give one for each record, or a single "
-               "value for all.",
-               size, reading.count);
-    }
-    return element(*entry, record);
-}
 
 RecordFile content_of(const Entry& entry, const std::string& file, const Reading& reading)
 {
@@ -177,103 +166,147 @@ RecordFile content_of(const Entry& entry, const std::string& file, const Reading
     }
 }
 
+/// Of the longer component, by which another one may be shorter.
+constexpr double largest_missing_share = 0.01;
+
 /// Refuses a component that does not belong to the horizontal one.
-void expect_other(const Entry& choice, const RecordComponent& other,
+void expect_other(const Choice& choice, const RecordComponent& other,
                   const RecordComponent& horizontal)
 {
+    const auto [shorter, longer] =
+        std::minmax({other.acceleration.size(), horizontal.acceleration.size()});
     if (std::ranges::all_of(other.acceleration, [](double value) { return value == 0; })) {
-        refuse(choice, " is zero at all times. Remove it.");
+        refuse(choice.entry, " = {} is zero at all times. Remove it.", choice.text);
     }
     if (other.time_step != horizontal.time_step ||
-        other.acceleration.size() != horizontal.acceleration.size()) {
-        refuse(choice,
-               " has {} samples at {} s, but the horizontal component has {} at {} s. Both must be "
-               "equal.",
-               other.acceleration.size(), other.time_step, horizontal.acceleration.size(),
-               horizontal.time_step);
+        double(longer - shorter) > largest_missing_share * double(longer)) {
+        refuse(
+            choice.entry,
+            " = {} has {} samples at {} s, but the horizontal component has {} at {} s. The "
+            "steps must be equal, and the numbers to within {:g} %, for which zeros are added at "
+            "the end. Give components of one motion.",
+            choice.text, other.acceleration.size(), other.time_step, horizontal.acceleration.size(),
+            horizontal.time_step, 100 * largest_missing_share);
     }
     if (std::abs(other.start - horizontal.start) > horizontal.time_step / 2) {
-        refuse(
-            choice,
-            " begins at {} s, but the horizontal component begins at {} s. Give both at the same "
-            "times.",
-            other.start, horizontal.start);
+        refuse(choice.entry,
+               " = {} begins at {} s, but the horizontal component begins at {} s. Give both at "
+               "the same times.",
+               choice.text, other.start, horizontal.start);
     }
     if (other.acceleration == horizontal.acceleration) {
-        refuse(choice, " = {} has the accelerations of the horizontal component. Give another one.",
-               component_text(choice));
+        refuse(choice.entry,
+               " = {} has the accelerations of the horizontal component. Give another one.",
+               choice.text);
     }
 }
 
-/// Of several components.
-std::vector<std::string>
-remarks_on(std::initializer_list<std::reference_wrapper<const RecordComponent>> components)
+/// A component of a motion, and what names it; empty if the motion has none.
+struct NamedComponent {
+    std::string name; ///< as in the job: a file, or a component
+    RecordComponent content;
+};
+
+/// The horizontal component, the second one, and the vertical one.
+using Components = std::array<NamedComponent, 3>;
+
+std::size_t samples_of(const Components& components)
+{
+    return std::ranges::max(mapped(
+        components, [](const NamedComponent& each) { return each.content.acceleration.size(); }));
+}
+
+/// Those of the files, on components of other events than that of the first one, and on zeros that
+/// are added.
+std::vector<std::string> remarks_on(const Components& components)
 {
     std::vector<std::string> remarks;
-    for (const RecordComponent& component : components) {
-        remarks.insert(remarks.end(), component.remarks.begin(), component.remarks.end());
+    const std::string& event = components[0].content.event;
+    for (const auto& [name, content] : components) {
+        remarks.insert(remarks.end(), content.remarks.begin(), content.remarks.end());
+        if (!event.empty() && !content.event.empty() && content.event != event) {
+            remarks.push_back(fmt::format(
+                "{} is of {}, but {} of {}: they may be different motions", components[0].name,
+                in_quotes(as_utf8(event)), name, in_quotes(as_utf8(content.event))));
+        }
+        const std::size_t size = content.acceleration.size();
+        if (const std::size_t added = samples_of(components) - size; size > 0 && added > 0) {
+            remarks.push_back(fmt::format(
+                "{} has {} samples, fewer than another component: {} {} added at the end", name,
+                size, added, added == 1 ? "zero is" : "zeros are"));
+        }
     }
     return remarks;
 }
 
 /// What the first of the components that state it says.
-std::optional<MotionOf>
-stated_motion_of(std::initializer_list<std::reference_wrapper<const RecordComponent>> components)
+std::optional<MotionOf> stated_motion_of(const Components& components)
 {
-    for (const RecordComponent& component : components) {
-        if (component.motion_of) {
-            return component.motion_of;
+    for (const NamedComponent& component : components) {
+        if (component.content.motion_of) {
+            return component.content.motion_of;
         }
     }
     return std::nullopt;
 }
 
+/// The choices of the components of a record; null: the default, or none.
+struct Choices {
+    const Choice* component;
+    const Choice* second;
+    const Choice* vertical;
+};
+
 /// The motion, whose name is that of the file and the component.
-RecordedMotion read_motion(std::size_t number, const GivenRecord& given, const Reading& reading)
+RecordedMotion read_motion(const GivenRecord& given, const Choices& choices, const Reading& reading)
 {
     const RecordFile content = content_of(given.entry, given.file, reading);
-    const auto choice = choice_of_record(number, "component", reading);
-    const RecordComponent& horizontal =
-        choice ? *chosen(given, content, *choice, false) : content.components.front();
+    const RecordComponent& horizontal = choices.component != nullptr
+                                            ? *chosen(given, content, *choices.component, false)
+                                            : content.components.front();
     if (horizontal.acceleration.size() < 2) {
         refuse(given.entry, " = {} has one sample. A record needs two or more.",
                in_quotes(given.file));
     }
-    const auto read_other = [&](const std::optional<Entry>& choice_of_it) -> RecordComponent {
-        if (!choice_of_it) {
+    const auto read_other = [&](const Choice* choice) -> NamedComponent {
+        if (choice == nullptr) {
             return {};
         }
-        const RecordComponent* const same_file = chosen(given, content, *choice_of_it, true);
-        RecordComponent other =
+        const RecordComponent* const same_file = chosen(given, content, *choice, true);
+        NamedComponent other{
+            choice->text,
             same_file != nullptr
                 ? *same_file
-                : content_of(*choice_of_it, string_of(*choice_of_it), reading).components.front();
-        expect_other(*choice_of_it, other, horizontal);
+                : content_of(choice->entry, choice->text, reading).components.front()};
+        expect_other(*choice, other.content, horizontal);
         return other;
     };
-    const auto choice_of_vertical = choice_of_record(number, "vertical", reading);
-    const auto choice_of_second = choice_of_record(number, "second_component", reading);
-    const RecordComponent vertical = read_other(choice_of_vertical);
-    const RecordComponent second = read_other(choice_of_second);
-    auto record = std::make_shared<const Accelerogram>(
-        over_gravity(horizontal, reading.gravity), over_gravity(vertical, reading.gravity),
-        horizontal.time_step, over_gravity(second, reading.gravity));
-    if (choice_of_second && record->second() == record->upwards()) {
-        refuse(*choice_of_second, " = {} is also the vertical component. Correct one of them.",
-               component_text(*choice_of_second));
+    const NamedComponent vertical = read_other(choices.vertical);
+    const NamedComponent second = read_other(choices.second);
+    const Components components{NamedComponent{given.file, horizontal}, second, vertical};
+    const auto over_g = [&](const NamedComponent& component) {
+        std::vector<double> accelerations = over_gravity(component.content, reading.gravity);
+        accelerations.resize(accelerations.empty() ? 0 : samples_of(components));
+        return accelerations;
+    };
+    auto record = std::make_shared<const Accelerogram>(over_g(components[0]), over_g(vertical),
+                                                       horizontal.time_step, over_g(second));
+    if (choices.second != nullptr && record->second() == record->upwards()) {
+        refuse(choices.second->entry, " = {} is also the vertical component. Correct one of them.",
+               choices.second->text);
     }
     const RecordedMotion motion{
         .file = given.file,
         .name = fmt::format("{}:{}", given.file, label_of(content, horizontal)),
         .component = horizontal.name,
-        .vertical = choice_of_vertical ? component_text(*choice_of_vertical) : "",
-        .second = choice_of_second ? component_text(*choice_of_second) : "",
-        .is_uncorrected =
-            horizontal.is_uncorrected || vertical.is_uncorrected || second.is_uncorrected,
-        .remarks = remarks_on({horizontal, second, vertical}),
+        .vertical = vertical.name,
+        .second = second.name,
+        .is_uncorrected = std::ranges::any_of(
+            components, [](const auto& each) { return each.content.is_uncorrected; }),
+        .remarks = remarks_on(components),
         .header = mapped(horizontal.header, as_utf8),
         .measures = intensity_measures(record->horizontal(), record->time_step(), reading.gravity),
-        .stated_motion_of = stated_motion_of({horizontal, second, vertical}),
+        .stated_motion_of = stated_motion_of(components),
         .ground_pga = horizontal.ground_pga,
         .checksum = checksum_of({&record->horizontal(), &record->upwards(), &record->second()}),
         .record = record};
@@ -305,8 +338,8 @@ std::vector<GivenRecord> given_records(const Entry& scene, const fs::path& folde
     std::vector<GivenRecord> records;
     for (std::size_t i = 0; i < size; ++i) {
         const Entry one = entry.node->is_array() ? element(entry, i) : entry;
-        for (std::string& file : files_of(one, folder)) {
-            records.push_back({one, std::move(file)});
+        for (Match& match : files_of(one, folder)) {
+            records.push_back({one, std::move(match.file), std::move(match.parts)});
         }
     }
     if (records.size() > most_records) {
@@ -351,12 +384,18 @@ std::vector<RecordedMotion> read_motions(const Entry& scene, const std::string& 
                                          double gravity)
 {
     const std::vector<GivenRecord> records = given_records(scene, folder);
-    const Reading reading{scene, folder, read_options(scene), gravity, records.size()};
+    const Reading reading{folder, read_options(scene), gravity};
+    const auto choices =
+        mapped(std::array{"component", "second_component", "vertical"},
+               [&](const char* key) { return choices_of(key, scene, records, folder); });
     std::vector<RecordedMotion> motions;
     std::set<std::string> known; // file, component and accelerations
     for (const GivenRecord& given : records) {
+        const auto choice = [&](std::size_t key) {
+            return choices[key].empty() ? nullptr : &choices[key][motions.size()];
+        };
         const RecordedMotion& motion =
-            motions.emplace_back(read_motion(motions.size(), given, reading));
+            motions.emplace_back(read_motion(given, {choice(0), choice(1), choice(2)}, reading));
         const std::string path = fs::weakly_canonical(reading.folder / given.file).string();
         const std::string component = motion.name.substr(motion.file.size());
         if (!known.insert(path + component + ":" + motion.checksum).second) {

@@ -67,9 +67,11 @@ std::vector<Key> keys_with_one_value()
         {"scene", "component", record, "string, integer or list", "1",
          "component of each record, by name or number"},
         {"scene", "second_component", record, "string, integer or list", "none",
-         "second horizontal component"},
+         "second horizontal component, the path of its file, or a pattern of files that pair with "
+         "the records"},
         {"scene", "vertical", record, "string, integer or list", "none",
-         "vertical component, or the path of its file"},
+         "vertical component, the path of its file, or a pattern of files that pair with the "
+         "records"},
         {"scene", "time_step", record, "number", "that of the file",
          "time between two samples of a text file of one column"},
         {"scene", "theory", always, "string", in_quotes(name_of(Scene().theory)),

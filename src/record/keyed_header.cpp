@@ -41,4 +41,16 @@ KeyedHeader::Entry KeyedHeader::required(std::string_view key) const
     return *found;
 }
 
+std::string KeyedHeader::values_of(std::initializer_list<std::string_view> keys) const
+{
+    std::string values;
+    for (const std::string_view key : keys) {
+        const auto entry = find(key);
+        if (entry && !entry->value.empty()) {
+            values += (values.empty() ? "" : ", ") + std::string(entry->value);
+        }
+    }
+    return values;
+}
+
 } // namespace overturn

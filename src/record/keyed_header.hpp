@@ -4,6 +4,7 @@
 
 #include "lines.hpp"
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,6 +29,9 @@ public:
 
     /// The same. Refuses a header without this key.
     Entry required(std::string_view key) const;
+
+    /// The values of the keys that the header has, separated by commas.
+    std::string values_of(std::initializer_list<std::string_view> keys) const;
 
     std::vector<std::string> kept() const { return kept_lines(before_, last_.number()); }
 

@@ -131,6 +131,7 @@ RecordFile read_at2(Lines lines, const RecordOptions& options)
     const std::size_t comma = station.rfind(',');
     RecordComponent component{
         .name = std::string(comma == station.npos ? "" : trimmed(station.substr(comma + 1))),
+        .event = std::string(comma == station.npos ? "" : trimmed(station.substr(0, comma))),
         .acceleration = take_free_numbers(
             lines, {.count = sampling.count, .name = "NPTS", .line = header_lines}),
         .unit = stated ? *stated : *options.unit,

@@ -57,6 +57,8 @@ RecordFile read_esm(Lines lines, const RecordOptions&)
     const double time_step = time_step_of(step.lines, step.value);
     const auto stream = header.find("STREAM:");
     RecordComponent component{.name = std::string(stream ? stream->value : ""),
+                              .event = header.values_of({"EVENT_NAME:", "EVENT_DATE_YYYYMMDD:",
+                                                         "EVENT_TIME_HHMMSS:", "STATION_CODE:"}),
                               .acceleration = take_free_numbers(lines, announced),
                               .unit = unit,
                               .time_step = time_step,

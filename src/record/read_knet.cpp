@@ -92,6 +92,7 @@ RecordFile read_knet(Lines lines, const RecordOptions&)
     const bool of_kiknet = number < names.size();
     RecordComponent component{
         .name = std::string(of_kiknet ? names[number] : direction),
+        .event = header.values_of({"Origin Time", "Station Code"}),
         .acceleration = acceleration_of_counts(scale.lines, take_free_numbers(lines, announced),
                                                factor.acceleration, factor.counts),
         .unit = AccelerationUnit::gal,

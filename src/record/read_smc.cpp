@@ -2,6 +2,8 @@
 #include "numbers.hpp"
 #include "stated_numbers.hpp"
 
+#include <fmt/ranges.h>
+
 #include <string>
 #include <utility>
 
@@ -12,10 +14,22 @@ namespace {
 // 11 lines of text, 6 of integers in columns of 10, 10 of numbers in columns of 15.
 constexpr std::size_t header_lines = 27;
 
+constexpr std::string_view before_component = "component=";
+
 std::string component_name(std::string_view station)
 {
-    const std::size_t place = place_after(station, "component=");
+    const std::size_t place = place_after(station, before_component);
     return std::string(place == station.npos ? "" : trimmed(station.substr(place)));
+}
+
+/// `1989 10 18 0004 Loma Prieta, CA, station = APEEL Array #2`, of lines 4 and 6
+std::string event_of(std::string_view earthquake, std::string_view station)
+{
+    const std::size_t place = place_after(station, before_component);
+    const std::size_t end =
+        place == station.npos ? station.size() : place - before_component.size();
+    return fmt::format("{}, {}", fmt::join(words_of(earthquake, " "), " "),
+                       trimmed(station.substr(0, end)));
 }
 
 /// Samples per second. It is unknown if the samples are not at even times.
@@ -101,7 +115,9 @@ RecordFile read_smc(Lines lines, const RecordOptions&)
         lines = ahead;
     }
     const std::size_t last_of_header = lines.number();
-    RecordComponent component{.name = component_name(ahead_by(before, 6).line()),
+    const std::string_view station = ahead_by(before, 6).line();
+    RecordComponent component{.name = component_name(station),
+                              .event = event_of(ahead_by(before, 4).line(), station),
                               .acceleration = take_free_numbers(lines, announced),
                               .unit = AccelerationUnit::cm_per_s2,
                               .time_step = 1 / rate,

@@ -38,13 +38,15 @@ TEST(At2, KeepsTheFourLinesOfItsHeader)
 TEST(At2, NamesTheComponentAtTheEndOfItsSecondLine)
 {
     EXPECT_EQ(component_of(sound_at2).name, "230");
+    EXPECT_EQ(component_of(sound_at2).event, "Somewhere-01, 1/17/1994, A Station");
 }
 
 TEST(At2, WithoutCommaInItsSecondLineHasAComponentWithoutName)
 {
-    EXPECT_EQ(
-        component_of(with(sound_at2, "Somewhere-01, 1/17/1994, A Station, 230", "a station")).name,
-        "");
+    const auto component =
+        component_of(with(sound_at2, "Somewhere-01, 1/17/1994, A Station, 230", "a station"));
+    EXPECT_EQ(component.name, "");
+    EXPECT_EQ(component.event, "");
 }
 
 // clang-format off

@@ -43,6 +43,16 @@ TEST(Esm, HasTheTimeStepAndTheStreamOfItsHeader)
     EXPECT_EQ(component_of(with(sound_esm, "STREAM: HNE\n", "")).name, "");
 }
 
+TEST(Esm, StatesItsEarthquakeAndItsStation)
+{
+    EXPECT_EQ(component_of(sound).event, "NOWHERE, NONE");
+    EXPECT_EQ(component_of(with(sound, "NOWHERE\n",
+                                "NOWHERE\nEVENT_DATE_YYYYMMDD: 20190728\n"
+                                "EVENT_TIME_HHMMSS: 160908\n"))
+                  .event,
+              "NOWHERE, 20190728, 160908, NONE");
+}
+
 TEST(Esm, IsNotCorrectedIfItWasNotProcessed)
 {
     EXPECT_FALSE(component_of(sound_esm).is_uncorrected);

@@ -69,6 +69,13 @@ TEST(Knet, NamesItsDirection)
     EXPECT_EQ(component_of(with(sound_knet, "E-W", "U-D")).name, "U-D");
 }
 
+TEST(Knet, StatesItsEarthquakeAndItsStation)
+{
+    EXPECT_EQ(component_of(sound).event, "2014/12/31 23:49:00, NONE01");
+    EXPECT_EQ(component_of(with(sound, "Station Code      NONE01\n", "")).event,
+              "2014/12/31 23:49:00");
+}
+
 TEST(Kiknet, NamesItsDirectionAndItsSensor)
 {
     const std::vector<std::string> names{"NS1", "EW1", "UD1", "NS2", "EW2", "UD2"};

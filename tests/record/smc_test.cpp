@@ -57,6 +57,13 @@ TEST(Smc, NamesItsComponent)
     EXPECT_EQ(component_of(sound_smc).name, "43");
 }
 
+TEST(Smc, StatesItsEarthquakeAndItsStation)
+{
+    const std::string line = "     1989  10  18    0004 Nowhere, CA  \n*\nstation";
+    EXPECT_EQ(component_of(with(sound, "*\n*\nstation", line)).event,
+              "1989 10 18 0004 Nowhere, CA, station = Nowhere");
+}
+
 TEST(Smc, WithoutNamedComponentHasOneWithoutName)
 {
     EXPECT_EQ(component_of(with(sound_smc, "component=     43", "")).name, "");

@@ -25,9 +25,9 @@ _WARNING = "overturn: warning: "  # begins a line of the program
 # Keys that name files: what to give, and which function takes arrays.
 FILES = {"scene.record": "a path or a list of paths. overturn.evaluate(record=..., time_step=...) takes accelerations, "
                          "and FloorMotion.to_text() writes those of a floor",
-         "scene.vertical": "a component of the record, a path, or a list of them. overturn.evaluate(vertical=...) "
-                           "takes accelerations",
-         "scene.second_component": "a component of the record, a path, or a list of them. "
+         "scene.vertical": "a component of the record, a path or a pattern, or a list of them. "
+                           "overturn.evaluate(vertical=...) takes accelerations",
+         "scene.second_component": "a component of the record, a path or a pattern, or a list of them. "
                                    "overturn.evaluate(second_component=...) takes accelerations",
          "shape": "the path of a table. overturn.evaluate(shape=...), and scene.shape of a job, take arrays",
          "blocks.table": "the path of a CSV file. overturn.evaluate(width=..., height=...) takes arrays of blocks"}

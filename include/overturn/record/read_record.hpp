@@ -30,6 +30,9 @@ struct RecordComponent {
     std::string name;
     /// Where its sensor is, such as "Roof: SW"; empty if the file does not state it.
     std::string place = {};
+    /// The earthquake and the station, as they are read of AT2, SMC, K-NET, KiK-net and ESM files,
+    /// to compare those of different files; in any encoding. Empty if it is unknown.
+    std::string event = {};
     std::vector<double> acceleration{}; ///< at least one sample [unit]
     AccelerationUnit unit = AccelerationUnit::g;
     double time_step = 0; ///< above 0 [s]
