@@ -2,14 +2,18 @@
 
 #include "layout.hpp"
 
+#include "overturn/mechanics/rotated_measures.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/text/mapped.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <numeric>
+#include <type_traits>
+#include <utility>
 
 namespace overturn {
 
@@ -18,7 +22,7 @@ namespace {
 using netcdf::Dimensions;
 
 /// The measures of a record as coordinates. If it has two horizontal components, they are those of
-/// the first one; Coordinates::of("record_pga") is that in the direction of a point.
+/// the motion in the direction of a point.
 constexpr netcdf::MemberVariable<IntensityMeasures> measures[] = {
     {"record_pga", "peak acceleration of the record, over g", "1", &IntensityMeasures::pga},
     {"pgv", "peak ground velocity of the record", "m s-1", &IntensityMeasures::pgv},
@@ -26,6 +30,28 @@ constexpr netcdf::MemberVariable<IntensityMeasures> measures[] = {
      &IntensityMeasures::arias_intensity},
     {"significant_duration", "significant duration of the record", "s",
      &IntensityMeasures::significant_duration, "from 5 to 95 % of the Arias intensity"}};
+
+constexpr char rotd50[] = "median of the directions 0, 1, ..., 179 degrees; not scaled";
+constexpr char rotd100[] = "largest of the directions 0, 1, ..., 179 degrees; not scaled";
+
+/// Those of two horizontal components.
+constexpr netcdf::MemberVariable<RotatedMeasures> rotated[] = {
+    {"pga_rotd50", "PGA of the record, RotD50, over g", "1", &RotatedMeasures::pga_rotd50, rotd50},
+    {"pga_rotd100", "PGA of the record, RotD100, over g", "1", &RotatedMeasures::pga_rotd100,
+     rotd100},
+    {"pgv_rotd50", "PGV of the record, RotD50", "m s-1", &RotatedMeasures::pgv_rotd50, rotd50},
+    {"pgv_rotd100", "PGV of the record, RotD100", "m s-1", &RotatedMeasures::pgv_rotd100, rotd100}};
+
+/// The function that returns results of another one, which computes those of equal arguments once.
+template <class Key, class Function>
+auto remembered(const Function& compute)
+{
+    using Result = std::invoke_result_t<const Function&, const Key&>;
+    return [compute, known = std::make_shared<std::map<Key, Result>>()](const Key& key) {
+        const auto found = known->find(key);
+        return (found != known->end() ? found : known->emplace(key, compute(key)).first)->second;
+    };
+}
 
 class CoordinateList {
 public:
@@ -181,11 +207,16 @@ private:
                    [&](double number) { return &job_.motions[Scene::record_index(number)]; });
         add_texts("motion_name", along, mapped(motions, [](auto* motion) { return motion->name; }),
                   "file of the recorded ground motion");
-        for (const auto& measure : measures) {
-            add(measure.name, along, measure.long_name, measure.units, [motions, &measure] {
-                return mapped(motions, [&](auto* each) { return each->measures.*measure.value; });
-            });
-            add_comment_of_measure(measure.comment);
+        if (job_.problem.scene.has_two_components()) {
+            add_measures_of_two_components(along, motions);
+        } else {
+            for (const auto& measure : measures) {
+                add(measure.name, along, measure.long_name, measure.units, [motions, &measure] {
+                    return mapped(motions,
+                                  [&](auto* each) { return each->measures.*measure.value; });
+                });
+                all_.back().variable.comment = measure.comment;
+            }
         }
         const bool all_know_the_ground = std::ranges::all_of(
             motions, [](const RecordedMotion* motion) { return motion->ground_pga.has_value(); });
@@ -195,17 +226,55 @@ private:
                 return mapped(motions, [](auto* each) { return *each->ground_pga; });
             });
             all_.back().variable.long_name = "peak acceleration of the ground, over g";
-            add_comment_of_measure("not scaled; of the motion that caused that of the floor");
+            all_.back().variable.comment = fmt::format(
+                "not scaled; of the motion that caused that of the floor{}",
+                job_.problem.scene.has_two_components() ? "; of the first horizontal component"
+                                                        : "");
         }
     }
 
-    void add_comment_of_measure(std::string comment)
+    /// along: the dimension of the motion
+    void add_measures_of_two_components(const Dimensions& along,
+                                        const std::vector<const RecordedMotion*>& motions)
     {
-        if (job_.problem.scene.has_two_components()) {
-            comment += comment.empty() ? "" : "; ";
-            comment += "of the first horizontal component";
+        const double gravity = job_.problem.scene.gravity;
+        const auto in_direction =
+            remembered<std::pair<double, double>>([&job = job_, gravity](const auto& directed) {
+                const auto& [number, direction] = directed;
+                const Accelerogram& record = *job.motions[Scene::record_index(number)].record;
+                return intensity_measures(record.in_direction(direction).horizontal(),
+                                          record.time_step(), gravity);
+            });
+        const std::vector<std::size_t> places = derived_->dimensions_of("record_pga");
+        const Dimensions directed = mapped(places, [&](std::size_t i) { return dimensions_[i]; });
+        for (const auto& measure : measures) {
+            add(measure.name, directed, measure.long_name, measure.units,
+                [derived = derived_, places, in_direction, &measure] {
+                    std::vector<double> values = derived->along(places, "motion");
+                    const std::vector<double> directions = derived->along(places, "direction");
+                    std::ranges::transform(
+                        values, directions, values.begin(), [&](double number, double direction) {
+                            return in_direction({number, direction}).*measure.value;
+                        });
+                    return values;
+                });
+            all_.back().variable.comment =
+                fmt::format("{}{}in the direction of the point", measure.comment,
+                            std::string_view(measure.comment).empty() ? "" : "; ");
         }
-        all_.back().variable.comment = comment;
+        const auto in_all_directions =
+            remembered<const RecordedMotion*>([gravity](const RecordedMotion* motion) {
+                return rotated_measures(*motion->record, gravity);
+            });
+        for (const auto& measure : rotated) {
+            add(measure.name, along, measure.long_name, measure.units,
+                [motions, in_all_directions, &measure] {
+                    return mapped(motions, [&](auto* each) {
+                        return in_all_directions(each).*measure.value;
+                    });
+                });
+            all_.back().variable.comment = measure.comment;
+        }
     }
 
     const Job& job_;

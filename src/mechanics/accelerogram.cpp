@@ -53,16 +53,20 @@ std::int64_t Accelerogram::sample_after(double phase) const
     return std::lower_bound(phases_.begin(), phases_.end(), phase) - phases_.begin();
 }
 
-Accelerogram Accelerogram::in_direction(double degrees) const
+HorizontalDirection HorizontalDirection::of(double degrees)
 {
     const double sign = degrees < 180 ? 1 : -1;
     const double half_turn = degrees < 180 ? degrees : degrees - 180;
     const double angle = half_turn * std::numbers::pi / 180;
-    const double cosine = sign * (half_turn == 90 ? 0 : std::cos(angle));
-    const double sine = sign * std::sin(angle);
+    return {sign * (half_turn == 90 ? 0 : std::cos(angle)), sign * std::sin(angle)};
+}
+
+Accelerogram Accelerogram::in_direction(double degrees) const
+{
+    const auto direction = HorizontalDirection::of(degrees);
     std::vector<double> motion = horizontal_;
     for (std::size_t i = 0; i < motion.size(); ++i) {
-        motion[i] = cosine * horizontal_[i] + sine * (second_.empty() ? 0 : second_[i]);
+        motion[i] = direction.component(horizontal_[i], second_.empty() ? 0 : second_[i]);
     }
     return {std::move(motion), upwards_, time_step_};
 }

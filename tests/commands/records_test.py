@@ -3,12 +3,13 @@
 import json
 import math
 import shutil
+import subprocess
 import unittest
 
 import h5py
 import numpy as np
 
-from program import JOBS, Scratch, checksum
+from program import JOBS, TOOLS, Scratch, checksum
 
 JOB = """
 title = "Blocks under a record"
@@ -224,7 +225,72 @@ fields = ["region", "margin", "peak", "angle"]
                          for name in ("one.AT2", "up.AT2"))
         np.testing.assert_allclose(two.pga.sel(direction=[0, 90, 180]) / two.scale,
                                    np.repeat([[first], [second], [first]], two.scale.size, 1), rtol=1e-14)
-        self.assertIn("first horizontal component", two.record_pga.attrs["comment"])
+        self.assertEqual(two.record_pga.attrs["comment"], "in the direction of the point")
+
+    def test_have_the_measures_of_their_motions_and_those_of_all_directions(self):
+        subprocess.run([TOOLS / "synthetic_record", "--suite", "3", "--components", "3", "-o", "suite"], check=True,
+                       cwd=self.folder, stdout=subprocess.DEVNULL)
+        one = ("--set", "plane.scale.count=2", "--set", "plane.size.count=2", "--set", "output.fields=['region']")
+        self.run_job(*one, "--set", 'scene.record="suite/*_H1.AT2"', "--set", 'scene.second_component="suite/*_H2.AT2"',
+                     "--set", 'scene.vertical="suite/*_V.AT2"', "--set",
+                     "plane.direction={ values = [0, 30, 90, 270] }", out="two.h5")
+        two = self.opened("two.h5")
+        self.assertEqual(list(two.motion_name.values), [f"suite/0{number}_H1.AT2" for number in (1, 2, 3)])
+        for place, end in ((0, "H1"), (2, "H2"), (3, "H2")):
+            self.run_job(*one, "--set", f'scene.record="suite/*_{end}.AT2"', out=f"{place}.h5")
+            alone = self.opened(f"{place}.h5")
+            for measure in ("record_pga", "pgv", "arias_intensity", "significant_duration"):
+                self.assertEqual(two[measure].dims, ("motion", "direction"))
+                self.assertEqual(alone[measure].dims, ("motion",))
+                # The cosine of 90 degrees is 0, so that values are those of the component.
+                np.testing.assert_array_equal(two[measure].values[:, place], alone[measure].values)
+                self.assertFalse(np.array_equal(two[measure].values[:, 1], alone[measure].values))
+            self.assertNotIn("pga_rotd50", alone)
+        np.testing.assert_array_equal(two.record_pga * two.scale, two.pga)
+
+        def components(name):
+            return [np.array((self.folder / name.replace("H1", end)).read_text().split(" SEC\n")[1].split(), float)
+                    for end in ("H1", "H2")]
+        angles = np.radians(np.arange(180))[:, None]
+        for number, name in enumerate(two.motion_name.values):
+            first, second = components(name)
+            peaks = np.abs(np.cos(angles) * first + np.sin(angles) * second).max(axis=1)
+            velocities = [np.append(0, np.cumsum(a[1:] + a[:-1])) * 0.01 / 2 * 9.81 for a in (first, second)]
+            speeds = np.abs(np.cos(angles) * velocities[0] + np.sin(angles) * velocities[1]).max(axis=1)
+            for measure, values in (("pga", peaks), ("pgv", speeds)):
+                for percentile in (50, 100):
+                    found = two[f"{measure}_rotd{percentile}"]
+                    self.assertEqual(found.dims, ("motion",))
+                    # Sums of thousands of terms.
+                    self.assertAlmostEqual(float(found[number]), np.percentile(values, percentile), delta=1e-12)
+
+    def test_of_the_rows_of_a_table_have_measures_of_their_own(self):
+        (self.folder / "table.csv").write_text("name,direction\nfirst,0\nsecond,90\nagain,0\n")
+        (self.folder / "job.toml").write_text("""
+            blocks.table = "table.csv"
+            [scene]
+            record = "one.AT2"
+            second_component = "up.AT2"
+            [plane]
+            slenderness = 0.2
+            size = 1
+            restitution = 0.9
+            scale = { values = [1, 2] }
+            """)
+        self.run_job()
+        data = self.opened("out.h5")
+        self.assertEqual(data.pgv.dims, ("block",))
+        self.assertEqual(data.pgv_rotd50.dims, ())
+        self.assertEqual(float(data.pgv[0]), float(data.pgv[2]))
+        np.testing.assert_allclose(data.record_pga, [0.4, 0.2, 0.4])
+
+    def test_have_a_history_of_one_of_the_pairs(self):
+        for number in (1, 2):
+            shutil.copy(self.folder / "one.AT2", self.folder / f"{number}.H1")
+            shutil.copy(self.folder / "up.AT2", self.folder / f"{number}.H2")
+        result = self.overturn("history", "job.toml", "--set", 'scene.record="*.H1"', "--set",
+                               'scene.second_component="*.H2"', "--set", "plane.direction=0", "-o", "h.h5")
+        self.assert_exit(result, 2, "with --set scene.record=1.H1 --set scene.second_component=1.H2.")
 
     def rock(self, name, plus, minus, directions):
         (self.folder / "rock.toml").write_text(self.ROCK.format(plus=plus, minus=minus, directions=directions))
@@ -403,7 +469,7 @@ restitution_of_maximum = 1
         self.assertEqual(data.attrs["record_processing"], "not corrected")
         counts = np.loadtxt(self.folder / "NONE01.EW", skiprows=6)
         pga = np.abs(counts - counts.mean()).max() * 3920 / 600000 / 981
-        self.assertAlmostEqual(float(data.record_pga), pga, places=12)
+        self.assertAlmostEqual(float(data.record_pga.sel(direction=0)), pga, places=12)
         with h5py.File(self.folder / "out.h5") as file:
             self.assertIn("vertical NONE01.UD, not corrected\n    Origin Time", file["run/records"][()].tobytes().decode())
 

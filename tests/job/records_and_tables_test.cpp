@@ -541,7 +541,7 @@ TEST_F(Columns, WithTheNameOfAVariableOrDimensionOfTheResultAreRefused)
                     HasSubstr("is the name of a variable"));
     }
     for (const char* name :
-         {"pgv", "arias_intensity", "significant_duration", "motion_name_length"}) {
+         {"pgv", "arias_intensity", "significant_duration", "pgv_rotd50", "motion_name_length"}) {
         EXPECT_THAT(refusal(exit_code::job,
                             [&] {
                                 write("t.csv", with_column(name));

@@ -166,18 +166,27 @@ class AResultFile(InAFolder):
         self.assertEqual(suite.motion_name.item(), "synthetic.AT2")
         self.assertIn("motion_name", suite.coords)
 
-    def test_of_two_components_has_a_fragility_over_the_peak_of_each_direction_only(self):
+    def test_of_two_components_has_a_fragility_over_the_measures_of_each_direction(self):
         one = {"plane.size": 1, "plane.slenderness": 0.25}
         alone = overturn.run(JOBS / "synthetic.toml", overrides=one)
         turned = overturn.run(JOBS / "synthetic.toml", overrides={
             **one, "scene.second_component": "synthetic_vertical.AT2", "plane.direction": {"values": [0, 30, 90]}})
-        for measure in ("pgv", "record_pga", "arias_intensity", "significant_duration"):
-            with self.assertRaisesRegex(ValueError, "first of two horizontal components"):
-                overturn.fragility(turned, measure)
-        curve = overturn.fragility(turned, "pga", bins=1, samples=1)
-        self.assertAlmostEqual(curve.edges[0], float(turned.pga.min()))
-        self.assertAlmostEqual(curve.edges[-1], float(turned.pga.max()))
-        overturn.fragility(alone, "pgv", samples=1)
+        for measure, power in (("pga", 1), ("pgv", 1), ("arias_intensity", 2), ("pga_rotd50", 1), ("pgv_rotd100", 1)):
+            values = (turned["record_pga" if measure == "pga" else measure] * turned.scale**power).values
+            curve = overturn.fragility(turned, measure, bins=1, samples=1)
+            np.testing.assert_allclose(curve.edges, [values.min(), values.max()])
+            self.assertEqual((curve.im, curve.units), (measure, "g" if measure.startswith("pga") else "m s-1"))
+        for measure in ("pga", "pgv", "arias_intensity"):
+            self.assertEqual(overturn.fragility(turned.isel(direction=0), measure, samples=1).median,
+                             overturn.fragility(alone, measure, samples=1).median)
+        ratio = overturn.risk.binned_marginal(turned, "pgv/pga", "pga", lambda y, x: np.zeros_like(y * x), samples=0)
+        self.assertAlmostEqual(ratio.data[1], float((turned.pgv / turned.record_pga).max()))
+
+    def test_of_two_components_by_an_earlier_version_has_no_fragility_over_those_of_the_first_one(self):
+        alone = overturn.run(JOBS / "synthetic.toml", overrides={"plane.size": 1, "plane.slenderness": 0.25})
+        alone["pgv"].attrs["comment"] = "of the first horizontal component"
+        with self.assertRaisesRegex(ValueError, "first of two horizontal components, .* compute the result again"):
+            overturn.fragility(alone, "pgv")
 
     def test_that_is_unfinished_has_no_values_of_unmarked_tiles(self):
         with overturn.run(JOB, output="spectrum.h5") as spectrum:

@@ -18,13 +18,16 @@ from matplotlib.text import Text
 from tool import InOneFolder, run_overturn  # first: adds the package to the path
 import overturn
 from overturn.captions import subtitle
-from overturn.motion_words import FLOOR_MEASURES, worded
+from overturn import motion_words
+from overturn.motion_words import worded
 from overturn.plot import risks
 from overturn.result_file import Result
 from overturn.spectrum_planes import Plane
 from overturn.units import name_axes
 
 FLOOR = {"motion_of": "floor"}
+FLOOR_MEASURES = {measure: variable for measure, variable in motion_words.FLOOR_MEASURES.items()
+                  if "_rotd" not in measure}  # those of a record of one component
 OF_GROUND = re.compile("ground|PGA|PGV|u_g")
 JOB = """
     [scene]

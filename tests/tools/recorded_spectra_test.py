@@ -161,6 +161,25 @@ class TestASuite(Recorded):
                       up="pga")
         self.assertIn("…" + "a" * 24 + "_H1.AT2", self.words())
 
+    def test_states_the_peak_of_a_direction_unless_directions_are_an_axis(self):
+        for name in ("synthetic.AT2", "synthetic_vertical.AT2"):
+            shutil.copy(JOBS / name, self.folder)
+        for direction, words in (("90", "synthetic.AT2, PGA 0.2 g in the direction of the point"),
+                                 ("{ values = [0, 90] }", "synthetic.AT2,  ")):
+            self.overturn("run", "spectrum.h5", job=f"""
+                [scene]
+                record = "synthetic.AT2"
+                second_component = "synthetic_vertical.AT2"
+                [plane]
+                scale = {{ first = 1, last = 2, count = 3 }}
+                size = {1 if "values" in direction else "{ values = [1, 2] }"}
+                direction = {direction}
+                slenderness = 0.2
+                restitution_of_maximum = 1
+                """)
+            self.assertIn(words, self.svg())
+            (self.folder / "spectrum.h5").unlink()
+
     def test_refuses_records_that_do_not_exist(self):
         self.recorded(np.zeros((13, 1, 1, 1, 1)), [f"{i}.AT2" for i in range(13)])
         self.refuses(2, "0 to 12 (motion 0.AT2 to 12.AT2)", "--motion", "13")

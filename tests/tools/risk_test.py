@@ -430,6 +430,7 @@ class TheHazard(unittest.TestCase):
             self.assertFalse(probability[levels:].any())
             np.testing.assert_allclose(found.level[[0, 14]], [0.01, 0.668724509], rtol=1e-7)  # cm/s in the file
             self.assertEqual((found.im, found.units), ("pgv", "m s-1"))
+        self.assertEqual(risk.read_hazard(OPENQUAKE, site=0, im="pgv_rotd50").im, "pgv_rotd50")
         older = '# kind="mean", investigation_time=1.0,imt="SA(0.3)"\nlon,lat,depth,poe-0.1,poe-0.4\n'
         found = self.read(older + "0,0,0,4.5E-01,5.5E-02\n", im="sa03")
         self.assertEqual((found.im, found.units, found.rate[0]), ("sa03", "g", -np.log1p(-0.45)))
@@ -441,7 +442,8 @@ class TheHazard(unittest.TestCase):
                          "to 1", risk.read_hazard, OPENQUAKE, site=site)
         self.refuses("txt:3: the probability of exceeding 1 in 50 years is 1. .*fewer years", self.read,
                      text.replace("3.909152E-01", "1.000000E+00"), site=0)
-        self.refuses("states the measure pgv, not pga", self.read, text, site=0, im="pga")
+        for im in ("pga", "pga_rotd50"):
+            self.refuses(f"states the measure pgv, not {im}", self.read, text, site=0, im=im)
         self.refuses("states the unit cm/s, not m/s", self.read, text, site=0, units="m/s")
         self.refuses("does not state the unit", self.read, text.replace("PGV", "CAV"), site=0)
         self.refuses("is not an output of hazard curves", self.read, text.replace("poe-", "PGV-"), site=0)

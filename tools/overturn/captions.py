@@ -166,9 +166,10 @@ def motion_text(plane, units):
     name = motion_names(plane.file)[number]
     if len(name) > MOST_LETTERS:
         name = "…" + name[1 - MOST_LETTERS:]  # names of one database differ in their ends
-    if "scale" not in plane.quantities(units):
+    peak = plane.value("record_pga")
+    if "scale" not in plane.quantities(units) or peak is None:
         return name
-    words = (f"{worded(plane.file.attrs, 'PGA')} {plane.value('record_pga'):.3g} g",
+    words = (f"{worded(plane.file.attrs, 'PGA')} {peak:.3g} g",
              plane.file["record_pga"].attrs.get("comment", ""))
     return f"{name}, {' '.join(filter(None, words))}"
 

@@ -23,8 +23,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 # How a measure grows with the scale of the motion: as scale^power.
-POWERS = {"pga": 1, "pgv": 1, "arias_intensity": 2, "significant_duration": 0}
+POWERS = {"pga": 1, "pgv": 1, "arias_intensity": 2, "significant_duration": 0, "pga_rotd50": 1, "pga_rotd100": 1,
+          "pgv_rotd50": 1, "pgv_rotd100": 1}
 _NAMES = {"pga": "record_pga"}  # of measures in a data set, before scaling
+_OVER_G = {peak + of for peak in ("pga", "pfa") for of in ("", "_rotd50", "_rotd100")}  # "1" in a data set
 VALUES_OF_CURVE = 100
 
 
@@ -90,8 +92,10 @@ def fragility(dataset: xarray.Dataset, im: str = "pgv", *, of: str = OVERTURNING
 
     im: intensity measure: "pga", "pgv", "arias_intensity", "significant_duration", or another variable of
         numbers over the dimension motion, which is taken to be proportional to the motion. The measures of
-        the records are scaled like the motions. Under motions of a floor, these are measures of the floor, and the
-        curve names them "pfa", "pfv", ...; "ground_pga" is the PGA of the ground that caused them.
+        the records are scaled like the motions. Under two horizontal components, they are those of the motion in the
+        direction of a point; "pga_rotd50", "pga_rotd100", "pgv_rotd50" and "pgv_rotd100" are those of all directions.
+        Under motions of a floor, these are measures of the floor, and the curve names them "pfa", "pfv", ...;
+        "ground_pga" is the PGA of the ground that caused them.
     of, above: what is counted: points that overturn or, for the name of a field of the result, those whose value is
         above a level in the unit of the field, such as of="peak", above=0.4. Points whose value is NaN have no verdict.
     friction_demand: coefficient between block and ground, up to 2; points that need more, see the field friction_demand, have no
@@ -160,7 +164,8 @@ def measure_of(dataset, im):
     measure = dataset[unscaled]
     if "of the first horizontal component" in measure.attrs.get("comment", ""):
         raise ValueError(f"im = {im!r} is that of the first of two horizontal components, in whatever direction the "
-                         "block is. Give im = \"pga\", which is that of every direction, or a variable of your own.")
+                         "block is. Give im = \"pga\", which is that of every direction, or compute the result again: "
+                         "the measures of its records are then those of every direction.")
     power = POWERS.get(variable, POWERS.get(name_of_measure(dataset, im), 1))
     return (measure * dataset["scale"] ** power).assign_attrs(dataset[unscaled].attrs)
 
@@ -176,13 +181,13 @@ def _is_measure(dataset, name):
     if name not in dataset or name == "motion" or dataset[name].dtype.kind not in "fiu":
         return False
     is_known = (not {name, name_of_measure(dataset, name)}.isdisjoint({*POWERS, *_NAMES.values()})
-                and dataset[name].dims == dataset["motion"].dims)
+                and {*dataset["motion"].dims} <= {*dataset[name].dims})
     return dataset[name].dims == ("motion",) or is_known
 
 
 def units_of(measure, im):
     units = str(measure.attrs.get("units", "1"))
-    return "g" if im in ("pga", "pfa") and units == "1" else units
+    return "g" if im in _OVER_G and units == "1" else units
 
 
 def _histograms(cells, edges):

@@ -95,7 +95,8 @@ def read_hazard(path: str | os.PathLike[str], *, im: str | None = None, units: s
     investigation time t become rates, -ln(1 - p) / t. Levels at the end that are never exceeded are left out.
 
     im, units: of a file that does not state them; units "g", "m/s" or "cm/s", or another text. For a measure of
-        OpenQuake that results do not have, such as SA(0.3), im may be another name for it.
+        OpenQuake that results do not have, such as SA(0.3), im may be another name for it. PGA and PGV may be those
+        of all directions, such as "pga_rotd50".
     site: row of the file, counted from 0, if it contains several sites.
 
     Raises ValueError with the place if the file is not understood or contradicts an argument, OSError if it cannot be
@@ -181,7 +182,7 @@ def _from_openquake(path, lines, im, units, site):
         raise ValueError(f"{path}:1: investigation_time = {time[1]} is not positive. Export the file again.")
     exceeded = slice(0, np.count_nonzero(np.maximum.accumulate(probability[::-1])))
     name, unit = OPENQUAKE.get(measure[1], (measure[1], "g" if measure[1].startswith("SA(") else None))
-    if measure[1] not in OPENQUAKE and im is not None:
+    if im is not None and (measure[1] not in OPENQUAKE or im.startswith(f"{name}_rotd")):
         name = im
     return Hazard(levels[exceeded], -np.log1p(-probability[exceeded]) / years, _agreed(path, "measure", im, name),
                   _agreed(path, "unit", units, unit), path)

@@ -9,10 +9,13 @@ FLOOR = "floor"
 OF_FLOOR = {"ground": "floor", "PGA": "PFA", "PGV": "PFV", "u_g": "u_f"}
 # Measures of the motion of a floor, and the variables of a result that contain them.
 FLOOR_MEASURES = {"pfa": "pga", "pfv": "pgv", "floor_arias_intensity": "arias_intensity",
-                  "floor_significant_duration": "significant_duration"}
+                  "floor_significant_duration": "significant_duration",
+                  "pfa_rotd50": "pga_rotd50", "pfa_rotd100": "pga_rotd100", "pfv_rotd50": "pgv_rotd50",
+                  "pfv_rotd100": "pgv_rotd100"}
 # Names of variables in texts that have no attributes, such as tables of comma-separated values.
 COLUMNS = {"pga": "pfa", "record_pga": "record_pfa", "pgv": "pfv", "flip_pga": "flip_pfa", "ground": "floor",
-           "ground_before": "floor_before", "ground_after": "floor_after"}
+           "ground_before": "floor_before", "ground_after": "floor_after",
+           **{variable: measure for measure, variable in FLOOR_MEASURES.items() if "_rotd" in measure}}
 VARIABLES = {column: variable for variable, column in COLUMNS.items()}
 _OF_GROUND = "ground_"  # begins the variables of the ground in a result under motions of a floor
 

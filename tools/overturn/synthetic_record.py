@@ -42,10 +42,10 @@ that writes it alone.
 With --components 2, each motion of a suite has a second horizontal component, with --components 3 a
 vertical one too. Their noise is independent: along their principal axes, the components of ground
 motion are uncorrelated (Penzien and Watabe). The correlation coefficient of two files differs from 0
-by chance only, with a standard deviation of 0.1. Duration, envelope and ground frequency are those of the first component. Both horizontal
-components have the same peak, the vertical one has half of it, as a simple value: the ratios of recorded
-motions vary around it, and are larger near a fault. A pulse is in H1 only, as one that is normal to
-the fault.
+by chance only, with a standard deviation of 0.1. Duration, envelope and ground frequency are those of
+the first component. Both horizontal components have the same peak, the vertical one has half of it, as
+a simple value: the ratios of recorded motions vary around it, and are larger near a fault. A pulse is
+in H1 only, as one that is normal to the fault.
 
 The file depends on the arguments only: noise is from NumPy's PCG64, values are rounded to 1e-7 g.
 

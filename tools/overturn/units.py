@@ -25,8 +25,8 @@ POWERS = {"time": (0, -1, 0), "fall_time": (0, -1, 0), "angle": (1, 0, 0), "velo
           "acceleration": (1, 2, 0), "q": (2, 2, 0), "slide": (0, 0, 1), "slide_peak": (0, 0, 1),
           "slide_velocity": (0, 1, 1)}
 # Units of what files give as multiples of them.
-MULTIPLES = {"pga": "g", "record_pga": "g", "ground_pga": "g", "flip_pga": "g", "ground": "g", "force_along": "weight",
-             "force_normal": "weight"}
+MULTIPLES = {"pga": "g", "record_pga": "g", "pga_rotd50": "g", "pga_rotd100": "g", "ground_pga": "g", "flip_pga": "g",
+             "ground": "g", "force_along": "weight", "force_normal": "weight"}
 NEEDING_A_SIZE = {"pulse_period", "pulse_frequency", "pga"}  # under a pulse
 
 

@@ -14,6 +14,18 @@ struct UpliftThresholds {
     double minus;
 };
 
+/// A direction psi in the plane of two horizontal components.
+struct HorizontalDirection {
+    double cosine;
+    double sine;
+
+    /// [degree] from 0 to below 360. That of psi + 180 is the opposite, bit by bit.
+    static HorizontalDirection of(double degrees);
+
+    /// The component of a motion in this direction: a1 cos psi + a2 sin psi.
+    double component(double first, double second) const { return cosine * first + sine * second; }
+};
+
 class Accelerogram {
 public:
     /// Accelerations over g [1], at least two; upwards, second: of the same number, or empty if
@@ -25,9 +37,8 @@ public:
     /// two. It has no time step.
     static Accelerogram of_pulse(std::vector<double> phases, std::vector<double> shape);
 
-    /// The motion in a direction psi [degree], without a second component: a1 cos psi + a2 sin psi
-    /// of the horizontal component a1 and the second one a2. That of psi + 180 is its mirror image,
-    /// bit by bit.
+    /// The motion in a direction [degree] of the plane of the horizontal component and the second
+    /// one, without a second component. That of psi + 180 is its mirror image, bit by bit.
     Accelerogram in_direction(double degrees) const;
 
     const std::vector<double>& horizontal() const { return horizontal_; }

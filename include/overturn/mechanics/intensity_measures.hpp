@@ -56,18 +56,27 @@ inline double time_of_energy(std::span<const double> a, const std::vector<double
     return double(i - 1) + fraction_of_interval(a[i - 1], a[i], energy - energies[i - 1]);
 }
 
-/// The peak of |v| at the samples, where v starts from rest and is not corrected [unit of a times
-/// the time step]:
+/// The velocity at each sample, which starts from rest and is not corrected [unit of a times the
+/// time step]:
 ///
 ///     v_i = v_(i-1) + (a_(i-1) + a_i)/2
 ///
 /// This is exact at the samples. An extremum between two of them, where a changes sign, is missed.
-inline double peak_velocity(std::span<const double> a)
+inline std::vector<double> velocities_at(std::span<const double> a)
 {
-    double velocity = 0, peak = 0;
+    std::vector<double> velocities(a.size());
     for (std::size_t i = 1; i < a.size(); ++i) {
-        velocity += (a[i - 1] + a[i]) / 2;
-        peak = std::max(peak, std::abs(velocity));
+        velocities[i] = velocities[i - 1] + (a[i - 1] + a[i]) / 2;
+    }
+    return velocities;
+}
+
+/// The largest |value|.
+inline double peak_of(std::span<const double> values)
+{
+    double peak = 0;
+    for (const double value : values) {
+        peak = std::max(peak, std::abs(value));
     }
     return peak;
 }
@@ -82,10 +91,8 @@ inline IntensityMeasures intensity_measures(std::span<const double> acceleration
 {
     assert(time_step > 0 && gravity > 0);
     IntensityMeasures measures;
-    for (const double a : acceleration) {
-        measures.pga = std::max(measures.pga, std::abs(a));
-    }
-    measures.pgv = gravity * time_step * peak_velocity(acceleration);
+    measures.pga = peak_of(acceleration);
+    measures.pgv = gravity * time_step * peak_of(velocities_at(acceleration));
     // Scaled to the peak 1, so that squares neither overflow nor underflow.
     std::vector<double> shape(acceleration.begin(), acceleration.end());
     for (double& a : shape) {

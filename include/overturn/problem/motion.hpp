@@ -48,7 +48,7 @@ struct MotionTraits {
     std::string_view frequency_with_two_sides;
     std::string_view choice;                   ///< of one motion of several; empty: there is one
     std::string_view fastest_dimension;        ///< the name of its quantity; empty: by their order
-    std::array<std::string_view, 5> variables; ///< further names that its result file needs
+    std::array<std::string_view, 9> variables; ///< further names that its result file needs
 
     std::string_view examples;        ///< of the keys of [plane], beside those of the block
     std::string_view answer_strength; ///< the quantity whose values `topple` computes
@@ -146,29 +146,30 @@ inline constexpr auto pulse_names = [] {
 /// Recorded ground motions, which each point scales. Either all or none have a vertical motion, and
 /// a second horizontal component.
 struct Suite {
-    static constexpr MotionTraits traits{.name = "record",
-                                         .under = Under::record,
-                                         .under_others = Under::pulse,
-                                         .amplitude = "scale",
-                                         .frequency = "samples_per_unit",
-                                         .frequency_with_two_sides = "samples_per_second",
-                                         .choice = "motion",
-                                         .fastest_dimension = "size",
-                                         .variables = {"motion_name_length", "record_pga", "pgv",
-                                                       "arias_intensity", "significant_duration"},
-                                         .examples = "scale, size",
-                                         .answer_strength = "scale",
-                                         .method = Method::taylor,
-                                         .has_other_methods = false,
-                                         .in_31_digits = Integrator::recorded_31,
-                                         .tile_side = 16,
-                                         .most_flips = 256,
-                                         .finest_step = 1e-3,
-                                         .flip_width = 1e-4,
-                                         .lifts_again = true,
-                                         .is_sensitive = true,
-                                         .reason_not_to_fill =
-                                             "under a record regions have no simple boundaries"};
+    static constexpr MotionTraits traits{
+        .name = "record",
+        .under = Under::record,
+        .under_others = Under::pulse,
+        .amplitude = "scale",
+        .frequency = "samples_per_unit",
+        .frequency_with_two_sides = "samples_per_second",
+        .choice = "motion",
+        .fastest_dimension = "size",
+        .variables = {"motion_name_length", "record_pga", "pgv", "arias_intensity",
+                      "significant_duration", "pga_rotd50", "pga_rotd100", "pgv_rotd50",
+                      "pgv_rotd100"},
+        .examples = "scale, size",
+        .answer_strength = "scale",
+        .method = Method::taylor,
+        .has_other_methods = false,
+        .in_31_digits = Integrator::recorded_31,
+        .tile_side = 16,
+        .most_flips = 256,
+        .finest_step = 1e-3,
+        .flip_width = 1e-4,
+        .lifts_again = true,
+        .is_sensitive = true,
+        .reason_not_to_fill = "under a record regions have no simple boundaries"};
 
     std::vector<Record> records;
 

@@ -102,7 +102,7 @@ const Quantity& quantity(std::string_view name);
 
 /// How a coordinate may follow from others: that of a quantity, or one of
 ///   record_pga        the peak of the record over g, not scaled, in the direction of the point
-///                     [1]; result files store that of the first component
+///                     [1]
 ///   uplift_pga        the ground acceleration over g that lifts the block at rest [1]
 ///   vertical_pga      the peak of the scaled vertical motion over g [1]
 ///   samples_per_unit  samples of the record per time unit 1/p [1]

@@ -45,7 +45,9 @@ COLOURS, MARKERS = ("#0b3c5d", "#c9741a", "#3f7a43", "#8f2d56", "#7d7d85", "#4b2
 NAMES = {"pga": "PGA", "pgv": "PGV", "arias_intensity": "Arias intensity",
          "significant_duration": "significant duration", "pfa": "PFA", "pfv": "PFV",
          "floor_arias_intensity": "Arias intensity of the floor",
-         "floor_significant_duration": "significant duration of the floor"}
+         "floor_significant_duration": "significant duration of the floor",
+         **{f"{peak}_{of}".lower(): f"{peak}, {of}" for peak in ("PGA", "PGV", "PFA", "PFV")
+            for of in ("RotD50", "RotD100")}}
 UNITS = {"m s-1": "m/s"}
 FIELDS = {"peak": r"a peak $|\theta|\,/\,\alpha$", "slide_peak": "a largest slide, over R,"}
 TEXT_WIDTH = 58  # characters that fit below a panel
@@ -178,7 +180,8 @@ def draw_fit(ax, curve, colour, line, count):
 def read_arguments(argv):
     parser = parser_of("plot_fragility", __doc__, EXAMPLE, "overturn run under records")
     parser.add_argument("--im", metavar="MEASURE", nargs="+",
-                        help="intensity measures: pga, pgv, arias_intensity or significant_duration; under motions "
+                        help="intensity measures: pga, pgv, arias_intensity or significant_duration; under two "
+                             "horizontal components also pga_rotd50, pga_rotd100, pgv_rotd50 and pgv_rotd100; under motions "
                              "of a floor, those of the floor, and ground_pga if it is known (default: pgv)")
     parser.add_argument("--plane", action="store_true",
                         help="draw the plane of two measures, --im X Y (default: pga pgv/pga)")
