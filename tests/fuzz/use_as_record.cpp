@@ -37,7 +37,7 @@ RecordOptions take_options(std::string_view& bytes)
     return options;
 }
 
-void use(const RecordComponent& component)
+void use_component(const RecordComponent& component)
 {
     const auto is_finite = [](double a) { return std::isfinite(a); };
     const auto is_line = [](const std::string& line) { return line.find('\n') == line.npos; };
@@ -59,7 +59,7 @@ Verdict use_as_record(std::string_view bytes, const std::string& path)
     try {
         const RecordFile file = read_record(path, options);
         demand(!file.components.empty(), "a record has no components");
-        std::for_each(file.components.begin(), file.components.end(), use);
+        std::for_each(file.components.begin(), file.components.end(), use_component);
         return Verdict::accepted;
     } catch (const Error& error) {
         const std::string message = error.what();

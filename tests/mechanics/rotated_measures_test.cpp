@@ -14,13 +14,12 @@ namespace {
 
 constexpr double gravity = 9.80665;
 constexpr double time_step = 0.01;
-constexpr double pi = std::numbers::pi;
 // A few roundings of values, and of sums of a few hundred terms, below 10.
 constexpr double round_off = 1e-12;
 
 double radians(int degrees)
 {
-    return degrees * pi / 180;
+    return degrees * std::numbers::pi / 180;
 }
 
 std::vector<double> noise(unsigned seed)

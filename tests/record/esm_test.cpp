@@ -45,8 +45,8 @@ TEST(Esm, HasTheTimeStepAndTheStreamOfItsHeader)
 
 TEST(Esm, StatesItsEarthquakeAndItsStation)
 {
-    EXPECT_EQ(component_of(sound).event, "NOWHERE, NONE");
-    EXPECT_EQ(component_of(with(sound, "NOWHERE\n",
+    EXPECT_EQ(component_of(sound_esm).event, "NOWHERE, NONE");
+    EXPECT_EQ(component_of(with(sound_esm, "NOWHERE\n",
                                 "NOWHERE\nEVENT_DATE_YYYYMMDD: 20190728\n"
                                 "EVENT_TIME_HHMMSS: 160908\n"))
                   .event,

@@ -71,8 +71,8 @@ TEST(Knet, NamesItsDirection)
 
 TEST(Knet, StatesItsEarthquakeAndItsStation)
 {
-    EXPECT_EQ(component_of(sound).event, "2014/12/31 23:49:00, NONE01");
-    EXPECT_EQ(component_of(with(sound, "Station Code      NONE01\n", "")).event,
+    EXPECT_EQ(component_of(sound_knet).event, "2014/12/31 23:49:00, NONE01");
+    EXPECT_EQ(component_of(with(sound_knet, "Station Code      NONE01\n", "")).event,
               "2014/12/31 23:49:00");
 }
 

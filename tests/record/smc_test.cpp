@@ -60,7 +60,7 @@ TEST(Smc, NamesItsComponent)
 TEST(Smc, StatesItsEarthquakeAndItsStation)
 {
     const std::string line = "     1989  10  18    0004 Nowhere, CA  \n*\nstation";
-    EXPECT_EQ(component_of(with(sound, "*\n*\nstation", line)).event,
+    EXPECT_EQ(component_of(with(sound_smc, "*\n*\nstation", line)).event,
               "1989 10 18 0004 Nowhere, CA, station = Nowhere");
 }
 

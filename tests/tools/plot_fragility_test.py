@@ -113,7 +113,7 @@ class TestAPicture(Curve):
             self.assertIn(label, words)
 
     def test_marks_the_weakest_azimuth(self):
-        (self.folder / "rock.csv").write_text("object,azimuth_from_x,slenderness,size,restitution_of_maximum\n"
+        (self.folder / "rock.csv").write_text("azimuth_of,azimuth_from_x,slenderness,size,restitution_of_maximum\n"
                                               "rock,0,0.2,1,0.9\nrock,90,0.15,1,0.9\nrock,180,0.5,1,0.9\n"
                                               "rock,270,0.2,1,0.9\n")
         run_overturn(self.folder, "run", 'scene.record = "*.AT2"\nblocks.table = "rock.csv"\n[plane]\n'

@@ -388,7 +388,7 @@ class TwoMeasures(unittest.TestCase):
 
     def test_of_a_result_count_an_object_once(self):
         region, scale = population()
-        several = result(region[..., [0, 1, 2, 0, 1, 2]], scale).assign_coords(object=("block", [1, 2, 2, 3, 4, 4]))
+        several = result(region[..., [0, 1, 2, 0, 1, 2]], scale).assign_coords(azimuth_of=("block", [1, 2, 2, 3, 4, 4]))
         either = np.where((region[..., [1]] == F) | (region[..., [2]] == F), F, S)
         blocks = result(np.concatenate([region[..., [0]], either] * 2, axis=2), scale)
 
