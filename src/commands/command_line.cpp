@@ -92,12 +92,35 @@ void add_job_arguments(CLI::App& command, JobSource& job)
         ->allow_extra_args(false);
 }
 
+/// text: I/N.
+JobPart part_named(const std::string& text)
+{
+    constexpr std::int64_t most = 100000;
+    JobPart part;
+    const std::size_t slash = text.find('/');
+    if (slash == text.npos || !CLI::detail::lexical_cast(text.substr(0, slash), part.number) ||
+        !CLI::detail::lexical_cast(text.substr(slash + 1), part.count) || part.number < 1 ||
+        part.number > part.count || part.count > most) {
+        throw CLI::ValidationError(fmt::format(
+            "--part: {} is no part. Give I/N with I from 1 to N, such as 3/16; N is at most {}.",
+            text, most));
+    }
+    return part;
+}
+
 void add_run_arguments(CLI::App& command, RunOptions& options)
 {
     add_job_arguments(command, options.job);
     add_text(command, "-o,--output", options.output, "OUT.h5",
              fmt::format("Result file; default: JOB{}.h5 in the working directory",
                          options.boundary ? "_boundary" : ""));
+    command
+        .add_option_function<std::string>(
+            "--part", [&options](const std::string& text) { options.part = part_named(text); },
+            fmt::format("Compute part I of N only, in a file of its own for overturn merge;\n"
+                        "default: JOB{}.part-I-of-N.h5",
+                        options.boundary ? "_boundary" : ""))
+        ->type_name("I/N");
     std::vector<std::string_view> kernels{"auto"};
     kernels.insert(kernels.end(), names_of<Kernel>.begin(), names_of<Kernel>.end());
     command
@@ -114,6 +137,12 @@ void add_boundary_arguments(CLI::App& command, RunOptions& options)
 {
     options.boundary = true;
     add_run_arguments(command, options);
+}
+
+void add_merge_arguments(CLI::App& command, MergeOptions& options)
+{
+    command.add_option("PART", options.parts, "Result files of all parts of a job")->required();
+    add_text(command, "-o,--output", options.output, "OUT.h5", "Result file")->required();
 }
 
 void add_accuracy_arguments(CLI::App& command, AccuracyOptions& options)
@@ -372,6 +401,8 @@ Parser::Parser()
     add("boundary",
         "Find the strengths or other values at which verdicts flip, with or without mpirun",
         help::boundary, run, add_boundary_arguments);
+    add("merge", "Join the files of all parts of a job, computed by run --part, to one",
+        help::merge, merge, add_merge_arguments);
     add("check", "Validate a job; print its points, bytes and time; write nothing", help::check,
         check, add_job_arguments);
     add("accuracy", "Measure error and computing time on a sample of a job's plane", help::accuracy,

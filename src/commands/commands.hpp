@@ -1,6 +1,7 @@
 // The subcommands, one file each. They return an exit code, and throw an exception on error.
 #pragma once
 
+#include "overturn/problem/job_part.hpp"
 #include "overturn/problem/quantity.hpp"
 
 #include <map>
@@ -24,8 +25,16 @@ struct RunOptions {
     bool durable = false;  ///< tiles survive a power failure
     int patience = 300;    ///< timeout of a silent rank [s]
     bool boundary = false; ///< a boundary instead of a spectrum
+    std::optional<JobPart> part;
 };
 int run(const RunOptions& options);
+
+/// Joins the files of all parts of a job to that of one run.
+struct MergeOptions {
+    std::vector<std::string> parts; ///< paths
+    std::string output;             ///< path of the result file
+};
+int merge(const MergeOptions& options);
 
 /// Prints what a job would compute and store, and its estimated time. Writes nothing.
 int check(const JobSource& source);

@@ -14,18 +14,35 @@ inline constexpr const char* overview = R"(Examples:
   overturn verify smoke.h5
   overturn history jobs/smoke.toml --at frequency=3,amplitude=1.5 -o history.h5
   overturn boundary jobs/smoke.toml
+  overturn run jobs/smoke.toml --part 1/2
+  overturn run jobs/smoke.toml --part 2/2
+  overturn merge smoke.part-1-of-2.h5 smoke.part-2-of-2.h5 -o merged.h5
 
 Exit codes: 0 success (of run: the file is complete); 2 error in the command line, or an
 unsupported processor or launcher; 65 error in the job; 70 internal error of overturn; 74 a result
 file cannot be read or written, is damaged or belongs to another job; 85 stopped by a signal or a
 silent rank, resumable.)";
 
-inline constexpr const char* run = R"(Example:
+inline constexpr const char* run = R"(Examples:
   mpirun -n 8 overturn run jobs/smoke.toml -o smoke.h5 --set numerics.tolerance=1e-10
+  overturn run jobs/smoke.toml --part 3/16
 
 The same command resumes an unfinished run, on any number of ranks. SIGUSR1, SIGTERM, SIGINT and
 SIGHUP stop a run cleanly within about two seconds, with exit code 85. Under mpirun, send SIGUSR1:
-mpirun itself acts on the other signals and may kill the ranks before they have stopped.)";
+mpirun itself acts on the other signals and may kill the ranks before they have stopped.
+
+With --part I/N, the run computes one of N parts of about equal duration. The parts are independent:
+any number of them run at the same time, on any hosts, each with or without mpirun, and each is
+stopped, resumed and verified like a whole run. overturn merge joins their files.)";
+
+inline constexpr const char* merge = R"(Examples:
+  for i in 1 2 3; do overturn run jobs/smoke.toml --part $i/3; done
+  overturn merge smoke.part-*-of-3.h5 -o smoke.h5
+
+Writes the file that one run would have written, byte for byte; the parts are kept. Before anything
+is written, all parts are read, and those that are missing, unfinished, damaged, given twice, or of
+another job, version or number of parts are named. The file appears when it is complete: if the
+command was stopped or killed, run it again.)";
 
 inline constexpr const char* boundary = R"(Example:
   mpirun -n 8 overturn boundary jobs/figure_07a.toml --set plane.amplitude.count=200

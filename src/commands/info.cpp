@@ -62,8 +62,15 @@ void print_axes_and_tiles(const StoredResult& stored)
     for (const std::string& remark : remarks_on(stored)) {
         print_row(is_boundary ? "lines" : "audit", remark);
     }
+    if (tiles.part) {
+        print_row("part",
+                  fmt::format("{} of {}, with {} of the {} tiles of the job", tiles.part->number,
+                              tiles.part->count, tiles.tiles, tiles.tiles_of_job));
+    }
     if (tiles.tiles_done < tiles.tiles) {
         print_row("unfinished", "Resume with " + command_to_complete(stored));
+    } else if (tiles.part) {
+        print_row("unfinished", "Join all parts with overturn merge");
     }
 }
 

@@ -8,6 +8,7 @@
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/result_writer.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/quoting.hpp"
 
 #include <fmt/format.h>
 
@@ -44,19 +45,39 @@ std::vector<std::int64_t> find_damaged_tiles(const StoredResult& stored)
 
 std::string output_path(const RunOptions& options)
 {
-    const std::string ending = options.boundary ? "_boundary.h5" : ".h5";
-    return options.output.empty() ? std::filesystem::path(options.job.path).stem().string() + ending
-                                  : options.output;
+    if (!options.output.empty()) {
+        return options.output;
+    }
+    std::string path = std::filesystem::path(options.job.path).stem().string();
+    path += options.boundary ? "_boundary" : "";
+    if (const auto& part = options.part) {
+        const std::string count = std::to_string(part->count);
+        path += fmt::format(".part-{:0{}}-of-{}", part->number, count.size(), count);
+    }
+    return path + ".h5";
 }
 
-std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const std::string& path,
+void expect_divisible(const Job& job, const std::optional<JobPart>& part)
+{
+    const std::int64_t tiles = tiling_of(job.problem).size();
+    if (part && part->count > tiles) {
+        throw Error(
+            exit_code::usage,
+            "--part {}/{}: the job has {} {}, and a part has at least one. Use fewer parts.",
+            part->number, part->count, tiles, noun_of(tiles, "tiles"));
+    }
+}
+
+std::optional<std::vector<std::int64_t>> prepare_output(const Job& job,
+                                                        const std::optional<JobPart>& part,
+                                                        const std::string& path,
                                                         const OutputLock& lock)
 {
     std::optional<std::vector<std::int64_t>> damaged;
     bool is_complete = false;
     {
         const GuardedReading guarded(path, lock.path());
-        if (const auto stored = existing_result(path, job)) {
+        if (const auto stored = existing_result(path, job, part)) {
             damaged = find_damaged_tiles(*stored);
             is_complete = damaged->empty() && stored->tiles().tiles_done == stored->tiles().tiles;
         }
@@ -68,12 +89,12 @@ std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const st
     }
     expect_place_for_sidecar(path);
     if (!damaged) {
-        const auto bytes = double(result_bytes(job));
+        const auto bytes = double(result_bytes(job, part));
         constexpr double made_at_once = 1e8;
         if (bytes > made_at_once) {
             print_line(fmt::format("{}: creating a file of {}", path, human_bytes(bytes)));
         }
-        create_result(path, job, [] { expect_no_stop(" before the file was created"); });
+        create_result(path, job, part, [] { expect_no_stop(" before the file was created"); });
         damaged.emplace();
     }
     return damaged;

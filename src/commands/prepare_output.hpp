@@ -17,9 +17,14 @@ namespace overturn {
 /// The result file of a run.
 std::string output_path(const RunOptions& options);
 
-/// Creates the file of the job unless it exists. Returns the numbers of its damaged tiles; nullopt
-/// if it is complete. lock: of the file. Throws Error.
-std::optional<std::vector<std::int64_t>> prepare_output(const Job& job, const std::string& path,
+/// Throws Error if the job has fewer tiles than parts.
+void expect_divisible(const Job& job, const std::optional<JobPart>& part);
+
+/// Creates the file of the job, or of a part of it, unless it exists. Returns the numbers of its
+/// damaged tiles; nullopt if it is complete. lock: of the file. Throws Error.
+std::optional<std::vector<std::int64_t>> prepare_output(const Job& job,
+                                                        const std::optional<JobPart>& part,
+                                                        const std::string& path,
                                                         const OutputLock& lock);
 
 /// Throws Error if a history or an accuracy study of this job cannot be computed, because blocks

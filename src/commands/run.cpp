@@ -12,11 +12,11 @@
 
 #include "overturn/farm/farm.hpp"
 #include "overturn/farm/stop_signals.hpp"
-#include "overturn/farm/tile_order.hpp"
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/result_writer.hpp"
 #include "overturn/file/stored_result.hpp"
 #include "overturn/problem/problem_bytes.hpp"
+#include "overturn/problem/tile_order.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/text/quoting.hpp"
 
@@ -41,6 +41,7 @@ struct Task {
     const Clock::time_point start;           ///< of the program
     const std::vector<std::int64_t> damaged; ///< finished tiles to recompute; on rank 0
     const Tiling tiling = tiling_of(problem);
+    const TilesOfPart own = TilesOfPart(tiling.size(), options.part); ///< the tiles of the file
     const Items items = items_of(problem);
     const Kernel kernel = kernel_called(options.kernel);
 
@@ -53,12 +54,15 @@ struct Task {
 
 std::string start_line(const Task& task, std::int64_t tiles_before)
 {
-    std::string what =
-        tiles_before == 0
-            ? fmt::format("{} {} in {} {}", human_count(double(task.items.count)),
-                          noun_of(task.items.count, task.items.name), task.tiling.size(),
-                          noun_of(task.tiling.size(), "tiles"))
-            : fmt::format("resuming: {} of {} tiles done", tiles_before, task.tiling.size());
+    std::string what = task.options.part ? words_of(*task.options.part) + ": " : "";
+    if (tiles_before == 0) {
+        const std::int64_t items = task.items_in(task.own.size());
+        what += fmt::format("{} {} in {} {}", human_count(double(items)),
+                            noun_of(items, task.items.name), task.own.size(),
+                            noun_of(task.own.size(), "tiles"));
+    } else {
+        what += fmt::format("resuming: {} of {} tiles done", tiles_before, task.own.size());
+    }
     if (!task.damaged.empty()) {
         what += fmt::format(", {} damaged {} to recompute", task.damaged.size(),
                             noun_of(task.damaged.size(), "tiles"));
@@ -82,8 +86,8 @@ std::string end_line(const Task& task, const FarmReport& report, double seconds)
 FarmReport farm_tiles(const Task& task, const std::vector<std::int64_t>& missing,
                       ResultWriter& file)
 {
-    const std::int64_t tiles_before = task.tiling.size() - std::int64_t(missing.size());
-    Progress progress(task.items_in(tiles_before), task.items.count, task.items.name);
+    const std::int64_t tiles_before = task.own.size() - std::int64_t(missing.size());
+    Progress progress(task.items_in(tiles_before), task.items_in(task.own.size()), task.items.name);
     const TileOrder order(task.tiling.size());
     TileFields fields; // of the last tile computed
     const TileWork tile_work{
@@ -118,8 +122,8 @@ int report_end(const Task& task, const FarmReport& report, double seconds)
     }
     print_line(fmt::format("{}: {}", task.path, end_line(task, report, seconds)));
     if (missing > 0) {
-        return print_error(stopped_by_signal(
-            fmt::format("; tiles missing: {} of {}", missing, task.tiling.size())));
+        return print_error(
+            stopped_by_signal(fmt::format("; tiles missing: {} of {}", missing, task.own.size())));
     }
     for (const std::string& line : remarks_on(stored)) {
         print_line(fmt::format("{}: {}", task.path, line));
@@ -149,7 +153,8 @@ int run_on_this_rank(const Task& task)
             file.reset(task.tiling[number]);
         }
         missing = file.missing_tiles();
-        print_line(start_line(task, task.tiling.size() - std::int64_t(missing.size())));
+        std::erase_if(missing, [&](std::int64_t tile) { return !task.own.contains(tile); });
+        print_line(start_line(task, task.own.size() - std::int64_t(missing.size())));
     }
     const FarmReport report = farm_tiles(task, missing, file);
     file.close();
@@ -188,9 +193,10 @@ int run(const RunOptions& options)
             if (options.boundary) {
                 job = boundary_of(std::move(*job));
             }
+            expect_divisible(*job, options.part);
             expect_path_for_mpi(std::filesystem::absolute(path).string());
             output_lock.emplace(path);
-            if (const auto found = prepare_output(*job, path, *output_lock)) {
+            if (const auto found = prepare_output(*job, options.part, path, *output_lock)) {
                 print_warnings(warnings_on(*job));
                 std::ranges::for_each(notes_on(*job), print_line);
                 damaged = *found;

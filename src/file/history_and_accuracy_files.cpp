@@ -258,7 +258,7 @@ void expect_room_for(const std::string& path, FileKind kind)
 void write_history_file(const std::string& path, const Job& job, const History& history)
 {
     expect_room_for(path, FileKind::history);
-    make_file(path, job, FileKind::history, [&](hid_t file, const std::string&) {
+    make_file(path, job, FileKind::history, [&](hid_t file) {
         add_outcome(file, job, history);
         const Scene& scene = job.problem.scene;
         add_quantity(file, scene, time_of_sample.name, time_of_sample, history.samples);
@@ -281,9 +281,8 @@ void write_accuracy_file(const std::string& path, const Job& job, const Accuracy
                          const std::vector<AccuracyRow>& rows)
 {
     expect_room_for(path, FileKind::accuracy);
-    make_file(path, job, FileKind::accuracy, [&](hid_t file, const std::string&) {
-        add_study(file, job.problem.scene, sample, rows);
-    });
+    make_file(path, job, FileKind::accuracy,
+              [&](hid_t file) { add_study(file, job.problem.scene, sample, rows); });
 }
 
 } // namespace overturn

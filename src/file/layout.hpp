@@ -27,6 +27,10 @@ inline std::string in_run_group(const std::string& name)
 /// Global attribute: "floor" if the motion is that of a floor; otherwise it is absent.
 inline constexpr char motion_of[] = "motion_of";
 
+/// Global attributes of a part of a job: 3 and 16 for part 3 of 16.
+inline constexpr char part_number[] = "part";
+inline constexpr char part_count[] = "parts";
+
 // In the group `run`.
 inline constexpr char run_token[] = "run_token";
 inline constexpr char checksum[] = "checksum";
@@ -34,10 +38,14 @@ inline constexpr char audit_checked[] = "audit_checked"; ///< of a filled spectr
 inline constexpr char audit_wrong[] = "audit_wrong";
 inline constexpr char job_resolved[] = "job_resolved";
 inline constexpr char coordinate_checksums[] = "coordinate_checksums"; ///< lines "NAME CHECKSUM"
+inline constexpr char skeleton[] = "skeleton"; ///< of a part: the bytes of the file without tiles
 
 // Attributes of the checksums.
 inline constexpr char dimensions[] = "dimensions"; ///< of every field, slowest first
 inline constexpr char tile_shape[] = "tile_shape";
+
+/// Attribute of the skeleton.
+inline constexpr char skeleton_checksum[] = "checksum";
 
 inline hdf5::Type type_of(Field field)
 {

@@ -191,6 +191,17 @@ void add_text(hid_t file, const std::string& name, const std::string& text,
     }
 }
 
+Handle add_numbers(hid_t file, const char* name, const Dimensions& along, const char* long_name)
+{
+    const Handle creation = dataset_creation();
+    check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY));
+    check(H5Pset_fill_time(creation, H5D_FILL_TIME_ALLOC));
+    Handle dataset =
+        create_dataset(file, layout::in_run_group(name), H5T_STD_U64LE, along, creation);
+    write_attribute(dataset, "long_name", long_name);
+    return dataset;
+}
+
 void add_group(hid_t file, const char* name)
 {
     const Handle creation = ordered_creation(H5P_GROUP_CREATE);
@@ -210,24 +221,36 @@ std::string record_text(const RecordedMotion& motion)
     return text + "\n";
 }
 
-void make_file(const std::string& path, const Job& job, FileKind kind, const WriteContent& write)
+void write_file(const std::string& path, const Job& job, FileKind kind, const WriteContent& write)
+{
+    Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, ordered_creation(H5P_FILE_CREATE),
+                          hdf5::file_access()),
+                H5Fclose);
+    write_origin(file, job, kind);
+    add_group(file, "run");
+    write(file);
+    add_job(file, job);
+    file.close();
+}
+
+void create_in_place(const std::string& path,
+                     const std::function<void(const std::string& temporary)>& write)
 {
     PartFile part(path);
     start_hdf5();
     try {
-        Handle file(H5Fcreate(part.path().c_str(), H5F_ACC_TRUNC, ordered_creation(H5P_FILE_CREATE),
-                              hdf5::file_access()),
-                    H5Fclose);
-        write_origin(file, job, kind);
-        add_group(file, "run");
-        write(file, part.path());
-        add_job(file, job);
-        file.close();
+        write(part.path());
     } catch (const hdf5::Hdf5Error& error) {
         throw Error(exit_code::output, "cannot create \"{}\": {}. Choose another name with -o.",
                     path, error.what());
     }
     part.move_into_place();
+}
+
+void make_file(const std::string& path, const Job& job, FileKind kind, const WriteContent& write)
+{
+    create_in_place(path,
+                    [&](const std::string& temporary) { write_file(temporary, job, kind, write); });
 }
 
 } // namespace overturn::netcdf

@@ -53,6 +53,10 @@ void add_variable(hid_t file, const Variable& variable);
 void add_text(hid_t file, const std::string& name, const std::string& text,
               const std::string& long_name);
 
+/// Adds numbers of the group `run`, all 0.
+hdf5::Handle add_numbers(hid_t file, const char* name, const Dimensions& along,
+                         const char* long_name);
+
 /// Adds a group. The names of its variables and dimensions begin with its name and a slash.
 void add_group(hid_t file, const char* name);
 
@@ -66,12 +70,20 @@ hdf5::Handle create_dataset(hid_t file, const std::string& name, hid_t type,
 /// The file, components and header lines of a record, as stored.
 std::string record_text(const RecordedMotion& motion);
 
-/// Adds the content to a file under construction; part: its temporary path.
-using WriteContent = std::function<void(hid_t file, const std::string& part)>;
+/// Adds the content to a file under construction.
+using WriteContent = std::function<void(hid_t file)>;
 
-/// Creates or replaces a file of this kind, which appears when it is complete: kind, program
-/// version and scene as attributes; the content that `write` adds; and in the group `run` the job
-/// as given, its overrides, and as resolved. Throws Error, and leaves no file behind.
+/// Writes a file of this kind: kind, program version and scene as attributes; the content that
+/// `write` adds; and in the group `run` the job as given, its overrides, and as resolved. Throws
+/// Hdf5Error.
+void write_file(const std::string& path, const Job& job, FileKind kind, const WriteContent& write);
+
+/// Creates or replaces a file, which appears when it is complete. `write` writes it under a
+/// temporary path. Throws Error, and leaves no file behind.
+void create_in_place(const std::string& path,
+                     const std::function<void(const std::string& temporary)>& write);
+
+/// Creates or replaces a file of this kind with both.
 void make_file(const std::string& path, const Job& job, FileKind kind, const WriteContent& write);
 
 } // namespace overturn::netcdf

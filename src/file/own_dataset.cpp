@@ -39,20 +39,23 @@ bool is_compressed(hid_t creation)
 
 constexpr std::uint64_t largest_compression = 1032; // of deflate: 258 equal bytes take two bits
 
-/// Whether all values are stored. This also reads the whole chunk index, so that a damaged index is
-/// found, or crashes HDF5, before the file is used.
-bool is_stored_as_a_whole(hid_t dataset, hid_t creation, const hdf5::Extents& shape,
-                          hsize_t bytes_per_value)
+/// Whether all values are stored, or as many chunks of them as given. This also reads the whole
+/// chunk index, so that a damaged index is found, or crashes HDF5, before the file is used.
+bool is_stored(hid_t dataset, hid_t creation, const hdf5::Extents& shape, hsize_t bytes_per_value,
+               const std::optional<std::int64_t>& chunks)
 {
-    hsize_t expected = bytes_per_value;
     hdf5::Extents chunk(shape.size(), 1);
     if (H5Pget_layout(creation) == H5D_CHUNKED) {
         check(H5Pget_chunk(creation, int(chunk.size()), chunk.data()));
     }
+    hsize_t all = 1;
+    hsize_t bytes_of_chunk = bytes_per_value;
     for (std::size_t i = 0; i < shape.size(); ++i) {
         require(chunk[i] >= 1, "a dataset has empty chunks");
-        expected *= (shape[i] + chunk[i] - 1) / chunk[i] * chunk[i];
+        all *= (shape[i] + chunk[i] - 1) / chunk[i];
+        bytes_of_chunk *= chunk[i];
     }
+    const hsize_t expected = (chunks ? hsize_t(*chunks) : all) * bytes_of_chunk;
     return H5Dget_storage_size(dataset) == expected || is_compressed(creation);
 }
 
@@ -98,7 +101,8 @@ bool has_type(hid_t dataset, const hdf5::Type& expected)
     return check(H5Tequal(type, expected.file)) > 0;
 }
 
-std::size_t count_stored(hid_t dataset, const hdf5::Type& type, std::uint64_t bytes_of_file)
+std::size_t count_stored(hid_t dataset, const hdf5::Type& type, std::uint64_t bytes_of_file,
+                         const std::optional<std::int64_t>& chunks)
 {
     const auto require_that = [&](bool condition, const char* what_is_wrong) {
         require(condition, fmt::format("the dataset {} {}", name_of(dataset), what_is_wrong));
@@ -111,10 +115,11 @@ std::size_t count_stored(hid_t dataset, const hdf5::Type& type, std::uint64_t by
     hsize_t count = 1;
     for (const hsize_t length : shape) {
         require_that(length > 0, "is empty");
-        require_that(length <= most / bytes_per_value / count, "is larger than the file");
+        require_that(chunks || length <= most / bytes_per_value / count, "is larger than the file");
         count *= length;
     }
-    require_that(is_stored_as_a_whole(dataset, creation, shape, bytes_per_value), "lacks values");
+    require_that(is_stored(dataset, creation, shape, bytes_per_value, chunks),
+                 chunks ? "has not the values of its tiles" : "lacks values");
     return count;
 }
 
@@ -128,6 +133,8 @@ std::string dataset_checksum(hid_t dataset, std::uint64_t bytes_of_file)
     };
     return has_type(dataset, hdf5::Type::of(char()))
                ? checksum(read_all<char>(dataset, bytes_of_file))
+           : has_type(dataset, hdf5::Type::of(std::uint8_t()))
+               ? checksum(read_all<std::uint8_t>(dataset, bytes_of_file))
                : checksum(read_all<double>(dataset, bytes_of_file));
 }
 

@@ -4,6 +4,7 @@
 #include "hdf5_handles.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,8 +22,10 @@ hdf5::Extents shape_of(hid_t dataset);
 bool has_type(hid_t dataset, const hdf5::Type& expected);
 
 /// The number of values of a dataset. Throws Hdf5Error unless they have this type, are all stored,
-/// and fit into the file: a damaged length could exhaust the memory.
-std::size_t count_stored(hid_t dataset, const hdf5::Type& type, std::uint64_t bytes_of_file);
+/// and fit into the file: a damaged length could exhaust the memory. If a number of chunks is
+/// given, so many must be stored, and the dataset may be larger than the file.
+std::size_t count_stored(hid_t dataset, const hdf5::Type& type, std::uint64_t bytes_of_file,
+                         const std::optional<std::int64_t>& chunks = {});
 
 /// All values of a dataset, row by row. Throws Hdf5Error as count_stored() does.
 template <class Value>
@@ -34,7 +37,8 @@ std::vector<Value> read_all(hid_t dataset, std::uint64_t bytes_of_file)
     return values;
 }
 
-/// The XXH64 of shape and values of a dataset of doubles or characters, in hexadecimal digits.
+/// The XXH64 of shape and values of a dataset of doubles, characters or bytes, in hexadecimal
+/// digits.
 std::string dataset_checksum(hid_t dataset, std::uint64_t bytes_of_file);
 
 } // namespace overturn

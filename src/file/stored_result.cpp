@@ -5,14 +5,11 @@
 #include "tile_access.hpp"
 #include "working_file.hpp"
 
-#include "overturn/file/provenance.hpp"
 #include "overturn/file/result_writer.hpp"
 #include "overturn/mechanics/region.hpp"
 #include "overturn/text/error.hpp"
 #include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
-
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -110,13 +107,29 @@ std::vector<Field> read_fields(hid_t file)
     return fields;
 }
 
-void check_field(hid_t file, Field field, const std::vector<AxisSummary>& axes, std::uint64_t bytes)
+/// axes: of this field. chunks: the number that is stored; nullopt: all.
+void check_field(hid_t file, Field field, const std::vector<AxisSummary>& axes, std::uint64_t bytes,
+                 const std::optional<std::int64_t>& chunks)
 {
     const Handle dataset = open_own_dataset(file, stored_name(field, format_of(file)));
     require(std::ranges::equal(shape_of(dataset), axes, {}, {},
                                [](const AxisSummary& axis) { return hsize_t(axis.size); }),
             "a field does not fit the axes");
-    count_stored(dataset, layout::type_of(field), bytes);
+    count_stored(dataset, layout::type_of(field), bytes, chunks);
+}
+
+/// nullopt: the file is that of all tiles.
+std::optional<JobPart> read_part(hid_t file, std::int64_t tiles)
+{
+    const auto number = hdf5::read_integers_attribute(file, layout::part_number);
+    const auto count = hdf5::read_integers_attribute(file, layout::part_count);
+    if (number.empty() && count.empty()) {
+        return std::nullopt;
+    }
+    require(number.size() == 1 && count.size() == 1 && 1 <= number[0] && number[0] <= count[0] &&
+                count[0] <= tiles,
+            "the number of the part is malformed");
+    return JobPart{number[0], count[0]};
 }
 
 FileOrigin read_origin(hid_t file, const std::string& path)
@@ -174,13 +187,6 @@ struct StoredResult::Open {
 
     Tiling tiling() const { return {mapped(tiles.axes, &AxisSummary::size), tiles.tile_shape}; }
 
-    /// The place of `crossing` among the axes; any place if there is none.
-    std::size_t crossing() const
-    {
-        return std::size_t(std::ranges::find(tiles.axes, flip_dimension, &AxisSummary::name) -
-                           tiles.axes.begin());
-    }
-
     void read_tiles(std::uint64_t bytes)
     {
         const auto open_number = [&](const char* name) {
@@ -196,24 +202,34 @@ struct StoredResult::Open {
             tiles.axes.push_back(read_axis(axis, name, bytes));
         }
         tiles.numbers = read_coordinate_numbers(file, bytes);
-        tiles.fields = read_fields(file);
-        for (const Field field : tiles.fields) {
-            require(traits_of(field).of != FieldOf::line || crossing() < tiles.axes.size(),
-                    "the dimension `crossing` is missing");
-            check_field(file, field, stored_dimensions_of(field, tiles.axes, crossing()), bytes);
-        }
         tiles.tile_shape = hdf5::read_integers_attribute(dataset, layout::tile_shape);
         require(tiles.tile_shape.size() == tiles.axes.size() &&
                     std::ranges::all_of(tiles.tile_shape, [](auto size) { return size >= 1; }),
                 "the tiles are malformed");
-        tiles.tiles = tiling().size();
+        tiles.tiles_of_job = tiling().size();
+        tiles.part = read_part(file, tiles.tiles_of_job);
+        const TilesOfPart own(tiles.tiles_of_job, tiles.part);
+        tiles.tiles = own.size();
+        tiles.fields = read_fields(file);
+        const std::size_t crossing = place_of_crossing(tiles.axes);
+        for (const Field field : tiles.fields) {
+            require(traits_of(field).of != FieldOf::line || crossing < tiles.axes.size(),
+                    "the dimension `crossing` is missing");
+            check_field(file, field, stored_dimensions_of(field, tiles.axes, crossing), bytes,
+                        tiles.part ? std::optional(tiles.tiles) : std::nullopt);
+        }
         const auto read_numbers = [&](hid_t numbers) {
-            require(shape_of(numbers) == hdf5::Extents{hsize_t(tiles.tiles)},
+            require(shape_of(numbers) == hdf5::Extents{hsize_t(tiles.tiles_of_job)},
                     "the numbers of the tiles do not fit the tiles");
             return read_all<std::uint64_t>(numbers, bytes);
         };
         checksums = read_numbers(dataset);
-        tiles.tiles_done = tiles.tiles - std::ranges::count(checksums, not_computed_checksum);
+        for (std::int64_t tile = 0; tile < tiles.tiles_of_job; ++tile) {
+            if (checksums[std::size_t(tile)] != not_computed_checksum) {
+                require(own.contains(tile), "a part has tiles of other parts");
+                ++tiles.tiles_done;
+            }
+        }
         if (!is_one_of(Field::evaluated, tiles.fields)) {
             return;
         }
@@ -237,7 +253,8 @@ struct StoredResult::Open {
         const Tiling all = tiling();
         const std::vector<StoredField> stored = mapped(fields, [&](Field field) {
             const std::string name = stored_name(field, format_of(file));
-            return StoredField{field, hdf5::open_dataset(file, name), crossing()};
+            return StoredField{field, hdf5::open_dataset(file, name),
+                               place_of_crossing(tiles.axes)};
         });
         for (std::int64_t number = 0; number < all.size(); ++number) {
             between_tiles();
@@ -271,14 +288,28 @@ const TilesSummary& StoredResult::tiles() const
     return open_->tiles;
 }
 
+std::string StoredResult::coordinate_checksums() const
+{
+    return or_refused(
+        path_, [&] { return read_text(open_->file, layout::coordinate_checksums, origin_.bytes); });
+}
+
 std::vector<std::string> StoredResult::damaged_coordinates() const
 {
     return or_refused(path_, [&] {
         const std::uint64_t bytes = origin_.bytes;
-        std::istringstream lines(read_text(open_->file, layout::coordinate_checksums, bytes));
+        std::istringstream lines(coordinate_checksums());
         std::vector<std::string> damaged;
         for (std::string name, checksum; lines >> name >> checksum;) {
             if (dataset_checksum(open_own_dataset(open_->file, name), bytes) != checksum) {
+                damaged.push_back(name);
+            }
+        }
+        if (tiles().part) {
+            const std::string name = layout::in_run_group(layout::skeleton);
+            const Handle skeleton = open_own_dataset(open_->file, name);
+            if (dataset_checksum(skeleton, bytes) !=
+                hdf5::read_text_attribute(skeleton, layout::skeleton_checksum)) {
                 damaged.push_back(name);
             }
         }
@@ -316,7 +347,8 @@ BoundaryLines StoredResult::count_lines() const
         const auto is_undecided = [](std::uint8_t code) {
             return Region(code) == Region::undecided;
         };
-        require(tile.points() == tile.count[open_->crossing()], "a tile has several lines");
+        require(tile.points() == tile.count[place_of_crossing(open_->tiles.axes)],
+                "a tile has several lines");
         ++lines.computed;
         lines.undecided +=
             std::ranges::any_of(below, is_undecided) || std::ranges::any_of(above, is_undecided);
@@ -334,156 +366,6 @@ BoundaryLines StoredResult::count_lines() const
     lines.unsafe_share /= computed;
     lines.undecided_share /= computed;
     return lines;
-}
-
-namespace {
-
-/// The line of a text that begins at `begin`; of a long one, the part around `place`.
-std::string line_around(std::string_view text, std::size_t begin, std::size_t place)
-{
-    constexpr std::size_t before = 40;
-    constexpr std::size_t length = 80;
-    if (begin == text.size()) {
-        return "(nothing more)";
-    }
-    const std::string_view line = text.substr(begin, text.find('\n', begin) - begin);
-    const std::size_t hidden = line.size() <= length ? 0 : std::max(place - begin, before) - before;
-    const std::string_view shown = line.substr(hidden, length);
-    return fmt::format("{}{}{}", hidden > 0 ? "..." : "", shown,
-                       hidden + shown.size() < line.size() ? "..." : "");
-}
-
-/// The part of a line of a resolved job between two words; empty for other lines.
-std::string_view part_between(std::string_view before, std::string_view after,
-                              std::string_view line)
-{
-    const std::size_t begin = line.find(before);
-    const std::size_t end = line.find(after);
-    return begin < end && end != line.npos
-               ? line.substr(begin + before.size(), end - begin - before.size())
-               : std::string_view();
-}
-
-/// The file of a record that a line of a resolved job names.
-std::string_view record_named_in(std::string_view line)
-{
-    return part_between("{ file = ", ", component = ", line);
-}
-
-/// The table of blocks, if a resolved job names it before a place in the lines about it.
-std::string_view table_named_before(std::string_view job, std::size_t place)
-{
-    constexpr std::string_view before = "[blocks]\ntable = ";
-    const std::size_t section = job.substr(0, place).rfind("\n[");
-    const std::string_view lines = section == job.npos ? job : job.substr(section + 1);
-    return lines.starts_with(before)
-               ? lines.substr(before.size(), lines.find('\n', before.size()) - before.size())
-               : std::string_view();
-}
-
-/// Describes the first line in which two different resolved jobs differ, and what to do.
-std::string first_difference(std::string_view stored, std::string_view given)
-{
-    constexpr std::string_view restore = "Restore it, or choose another name with -o.";
-    const auto differ = std::ranges::mismatch(stored, given);
-    const auto place = std::size_t(differ.in1 - stored.begin());
-    const std::string_view same = given.substr(0, place);
-    const std::size_t begin = same.rfind('\n') + 1; // 0 if there is none
-    const auto line_of = [&](std::string_view text) {
-        return text.substr(begin, text.find('\n', begin) - begin);
-    };
-    const std::string_view record = record_named_in(line_of(given));
-    const std::string_view former = record_named_in(line_of(stored));
-    if (!record.empty() && record == former) {
-        return fmt::format("the record {} has changed since then, or is read with other keys "
-                           "(component, second_component, vertical, time_step, units, gravity). {}",
-                           record, restore);
-    }
-    if (!record.empty() || !former.empty()) {
-        const auto name_of = [](std::string_view name) { return name.empty() ? "none" : name; };
-        return fmt::format("its records were others; the first that differs was {}, and is {} in "
-                           "this job. A pattern may match other files than then. Restore them, or "
-                           "choose another name with -o.",
-                           name_of(former), name_of(record));
-    }
-    const auto table_of = [&](std::string_view job) {
-        const auto shape = part_between("shape = { file = ", ", rows = ", line_of(job));
-        return shape.empty() ? table_named_before(job, place) : shape;
-    };
-    const std::string_view table = table_of(given);
-    if (table.size() > std::string_view("\"\"").size() && table == table_of(stored)) {
-        return fmt::format("the table {} has changed since then. {}", table, restore);
-    }
-    return fmt::format(
-        "line {} of its resolved job is\n  {}\nbut in this job it is\n  {}\nUndo the "
-        "change of the job file, repeat the --set arguments of the first run, or "
-        "choose another name with -o.",
-        1 + std::ranges::count(same, '\n'), line_around(stored, begin, place),
-        line_around(given, begin, place));
-}
-
-/// Throws Error unless the file is the result of this job, by this version of the program.
-void expect_result_of(const Job& job, const StoredResult& stored)
-{
-    const auto refuse = [&](const std::string& what) {
-        throw Error(exit_code::output, "\"{}\" {}", stored.path(), what);
-    };
-    const Problem& problem = job.problem;
-    const FileOrigin& origin = stored.origin();
-    if (origin.kind != kind_of(problem.product)) {
-        refuse(fmt::format("is {} {}, but the job computes an {}. Choose another name with -o.",
-                           origin.kind == FileKind::history ? "a" : "an", name_of(origin.kind),
-                           name_of(kind_of(problem.product))));
-    }
-    if (origin.resolved_job != job.resolved) {
-        refuse("belongs to another job: " + first_difference(origin.resolved_job, job.resolved));
-    }
-    if (origin.program_version != program_version() || origin.program_commit != program_commit()) {
-        refuse(fmt::format(
-            "was computed by overturn {} (commit {}), but this is overturn {} (commit "
-            "{}), whose results may differ in the last digits. Choose another name "
-            "with -o, or use that version.",
-            origin.program_version, origin.program_commit, program_version(), program_commit()));
-    }
-    const Tiling tiling = tiling_of(problem);
-    const TilesSummary& tiles = stored.tiles();
-    if (tiles.tile_shape != tiling.tile_shape() || tiles.tiles != tiling.size() ||
-        tiles.fields != problem.fields ||
-        !std::ranges::equal(tiles.axes, stored_dimensions(problem), {}, &AxisSummary::name,
-                            &StoredDimension::name)) {
-        refuse("is damaged: its fields or tiles do not match its job. Remove it, or choose another "
-               "name with -o.");
-    }
-    if (const auto damaged = stored.damaged_coordinates(); !damaged.empty()) {
-        refuse(fmt::format("is damaged: the values of its coordinates have changed: {}. Remove it, "
-                           "or choose another name with -o.",
-                           fmt::join(damaged, ", ")));
-    }
-}
-
-} // namespace
-
-std::optional<StoredResult> existing_result(const std::string& path, const Job& job)
-{
-    std::error_code reason;
-    if (std::filesystem::status(path, reason).type() == std::filesystem::file_type::not_found) {
-        return std::nullopt;
-    }
-    std::optional<StoredResult> stored;
-    try {
-        stored.emplace(path);
-    } catch (const Error& error) {
-        throw Error(exit_code::output, "{} Choose another name with -o.", error.what());
-    }
-    if (stored->origin().format != layout::format) {
-        throw Error(
-            exit_code::output,
-            "\"{}\" was written by an older program, and is not continued by this one. Choose "
-            "another name with -o.",
-            path);
-    }
-    expect_result_of(job, *stored);
-    return stored;
 }
 
 void clear_open_mark(const std::string& path)

@@ -18,15 +18,20 @@ hdf5::Extents extents(const Shape& shape)
     return {shape.begin(), shape.end()};
 }
 
+/// Selects the box in a space; a single value is the whole space.
+Handle selected(Handle space, const Shape& begin, const Shape& count)
+{
+    if (!count.empty()) {
+        check(H5Sselect_hyperslab(space, H5S_SELECT_SET, extents(begin).data(), nullptr,
+                                  extents(count).data(), nullptr));
+    }
+    return space;
+}
+
 /// The part of a dataset that a tile occupies.
 Handle selection(hid_t dataset, const Tile& tile)
 {
-    Handle space(H5Dget_space(dataset), H5Sclose);
-    if (!tile.count.empty()) { // a single value is the whole dataset
-        check(H5Sselect_hyperslab(space, H5S_SELECT_SET, extents(tile.begin).data(), nullptr,
-                                  extents(tile.count).data(), nullptr));
-    }
-    return space;
+    return selected(Handle(H5Dget_space(dataset), H5Sclose), tile.begin, tile.count);
 }
 
 /// The tile's values in memory, in the shape of the selection: if the shapes differ, HDF5 copies
@@ -34,6 +39,20 @@ Handle selection(hid_t dataset, const Tile& tile)
 Handle in_memory(const Tile& tile)
 {
     return hdf5::space_of(extents(tile.count));
+}
+
+/// Reads the values of a tile into the first corner of a box of this shape.
+FieldValues read_box(const StoredField& stored, const Tile& part, const Shape& box)
+{
+    FieldValues values = not_computed(stored.field, count_points(box));
+    const Handle memory = selected(hdf5::space_of(extents(box)), Shape(box.size(), 0), part.count);
+    std::visit(
+        [&](auto& list) {
+            check(H5Dread(stored.dataset, hdf5::Type::of(list[0]).memory, memory,
+                          selection(stored.dataset, part), H5P_DEFAULT, list.data()));
+        },
+        values);
+    return values;
 }
 
 } // namespace
@@ -70,14 +89,13 @@ void write_tile(const StoredField& stored, const Tile& tile, const FieldValues& 
 FieldValues read_tile(const StoredField& stored, const Tile& tile)
 {
     const Tile part = stored.part_of(tile);
-    FieldValues values = not_computed(stored.field, part.points());
-    std::visit(
-        [&](auto& list) {
-            check(H5Dread(stored.dataset, hdf5::Type::of(list[0]).memory, in_memory(part),
-                          selection(stored.dataset, part), H5P_DEFAULT, list.data()));
-        },
-        values);
-    return values;
+    return read_box(stored, part, part.count);
+}
+
+FieldValues read_chunk(const StoredField& stored, const Tile& tile, const Shape& tile_shape)
+{
+    return read_box(stored, stored.part_of(tile),
+                    stored_dimensions_of(stored.field, tile_shape, stored.crossing));
 }
 
 static_assert(std::endian::native == std::endian::little, "values are hashed as they are stored");

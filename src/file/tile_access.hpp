@@ -4,10 +4,12 @@
 
 #include "hdf5_handles.hpp"
 
+#include "overturn/file/stored_result.hpp"
 #include "overturn/problem/fields.hpp"
 #include "overturn/problem/problem.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -19,6 +21,12 @@ inline std::size_t place_of_crossing(const Problem& problem)
 {
     const Boundaries* boundaries = problem.product.boundaries();
     return boundaries != nullptr ? boundaries->dimension(problem.grid) : 0;
+}
+
+/// The same of a file; any place beyond the axes if there is none.
+inline std::size_t place_of_crossing(const std::vector<AxisSummary>& axes)
+{
+    return std::size_t(std::ranges::find(axes, flip_dimension, &AxisSummary::name) - axes.begin());
 }
 
 /// The entries of a list, one per dimension of the points, for the dimensions of a field: a field
@@ -50,6 +58,9 @@ void write_chunk(const StoredField& stored, const Tile& tile, const FieldValues&
 
 void write_tile(const StoredField& stored, const Tile& tile, const FieldValues& values);
 FieldValues read_tile(const StoredField& stored, const Tile& tile);
+
+/// The values of the whole chunk of a tile: beyond the far edges, those that are not computed.
+FieldValues read_chunk(const StoredField& stored, const Tile& tile, const Shape& tile_shape);
 
 inline constexpr std::uint64_t not_computed_checksum = 0;
 

@@ -84,6 +84,17 @@ bool is_left_over(const std::string& path)
     return true;
 }
 
+void expect_space(const std::string& path, long double needed, std::string_view advice)
+{
+    std::error_code unknown; // then it is the largest number
+    const auto available = std::filesystem::space(folder_of(behind_links(path)), unknown).available;
+    if (needed > static_cast<long double>(available)) {
+        throw Error(exit_code::output,
+                    "cannot create \"{}\": it takes {:.0f} bytes, but {} are available. {}", path,
+                    needed, available, advice);
+    }
+}
+
 PartFile::PartFile(const std::string& path)
     : target_(behind_links(path)), folder_(folder_of(target_)), part_(target_ + ".part")
 {

@@ -25,6 +25,9 @@ int create_working_file(const std::string& path);
 /// program has the name.
 bool is_left_over(const std::string& path);
 
+/// Throws Error with the advice if the folder of a file has less space than it takes [byte].
+void expect_space(const std::string& path, long double needed, std::string_view advice);
+
 /// A file under construction. It is written as OUT.part and renamed atomically when it is complete
 /// and synced to the disk. If it is not completed, the destructor removes it.
 class PartFile {

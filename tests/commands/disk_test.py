@@ -126,31 +126,28 @@ class AStopDuringAWrite(OnFaultyDisk):
             self.assertEqual(checksum(self.folder / "out.h5"), whole)
 
 
-class AFullDisk(Scratch):
+class OnSmallDisk(Scratch):
     """A private file system, which any user may mount in a mount namespace."""
 
-    @staticmethod
-    def is_possible():
-        return subprocess.run(["unshare", "--map-root-user", "--mount", "true"],
-                              capture_output=True).returncode == 0
-
-    def setUp(self):
-        super().setUp()
-        if not self.is_possible():
-            self.skipTest("mount namespaces are not available")
-        self.assert_exit(self.overturn("run", "small.toml", "-o", "whole.h5"), 0)
-        self.whole = self.folder / "whole.h5"
-
     def on_small_disk(self, commands):
-        """Runs shell commands with $DISK, which has half of the space that the file needs."""
+        """Runs shell commands with $DISK, which has half of the space of whole.h5."""
+        if subprocess.run(["unshare", "--map-root-user", "--mount", "true"], capture_output=True).returncode:
+            self.skipTest("mount namespaces are not available")
         disk = self.folder / "disk"
         disk.mkdir()
-        bytes_of_disk = self.whole.stat().st_size // 2
+        bytes_of_disk = (self.folder / "whole.h5").stat().st_size // 2
         script = f"mount -t tmpfs -o size={bytes_of_disk} tmpfs $DISK; " + commands
         return subprocess.run(
             ["unshare", "--map-root-user", "--mount", "bash", "-c", script], cwd=self.folder,
             env=ENVIRONMENT | {"DISK": str(disk), "OVERTURN": OVERTURN}, timeout=PATIENCE,
             capture_output=True, text=True)
+
+
+class AFullDisk(OnSmallDisk):
+    def setUp(self):
+        super().setUp()
+        self.assert_exit(self.overturn("run", "small.toml", "-o", "whole.h5"), 0)
+        self.whole = self.folder / "whole.h5"
 
     def test_is_detected_before_computing(self):
         result = self.on_small_disk("$OVERTURN run small.toml -o $DISK/out.h5; code=$?;"

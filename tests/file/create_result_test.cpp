@@ -134,7 +134,7 @@ TEST_F(CreateSpectrumFile, ReplacesAPartLeftByAKilledRun)
         std::filesystem::create_hard_link(folder / "a.h5.part", folder / "left");
         throw Killed();
     };
-    EXPECT_THROW(create_result(folder / "a.h5", job, link_and_stop), Killed);
+    EXPECT_THROW(create_result(folder / "a.h5", job, {}, link_and_stop), Killed);
     EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.part"));
     std::filesystem::rename(folder / "left", folder / "a.h5.part");
     create();
@@ -162,7 +162,7 @@ TEST_F(CreateSpectrumFile, DoesNotReplaceADanglingLink)
 TEST_F(CreateSpectrumFile, CanBeStoppedBetweenAnyTwoTilesWithoutLeavingAFile)
 {
     std::int64_t calls = 0;
-    create_result(folder / "a.h5", job, [&] { ++calls; });
+    create_result(folder / "a.h5", job, {}, [&] { ++calls; });
     EXPECT_EQ(calls, tiling_of(job.problem).size() * std::int64_t(job.problem.fields.size()));
     struct Stopped {};
     const auto stop = [&] {
@@ -170,7 +170,7 @@ TEST_F(CreateSpectrumFile, CanBeStoppedBetweenAnyTwoTilesWithoutLeavingAFile)
             throw Stopped();
         }
     };
-    EXPECT_THROW(create_result(folder / "b.h5", job, stop), Stopped);
+    EXPECT_THROW(create_result(folder / "b.h5", job, {}, stop), Stopped);
     EXPECT_FALSE(std::filesystem::exists(folder / "b.h5"));
     EXPECT_FALSE(std::filesystem::exists(folder / "b.h5.part"));
 }

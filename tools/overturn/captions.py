@@ -220,9 +220,10 @@ def subtitle(planes, units=JOB):
 
 
 def unfinished_words(file):
-    """Returns the note on missing tiles, if there are any."""
+    """Returns the note on missing tiles, if there are any; of a part of a job, with its number."""
     done, number = int(np.count_nonzero(file.are_computed)), file.are_computed.size
-    return [f"unfinished: {done} of {number} {file.PARTS} computed"] * (done < number)
+    part = f"part {file.attrs['part']} of {file.attrs['parts']}, " if "part" in file.attrs else ""
+    return [f"{part}unfinished: {done} of {number} {file.PARTS} computed"] * (done < number)
 
 
 def heading(planes):

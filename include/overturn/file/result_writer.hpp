@@ -6,6 +6,7 @@
 
 #include "overturn/file/stored_result.hpp"
 #include "overturn/job/job.hpp"
+#include "overturn/problem/job_part.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 
 #include <mpi.h>
@@ -23,15 +24,17 @@ namespace overturn {
 /// files in MPI_Finalize, and crashes on a file that is incomplete because the disk was full.
 void start_hdf5();
 
-/// Upper bound of the size of the job's result file [byte]; the file is at most 3 % + 32 KiB
-/// smaller. In floating point, which cannot overflow here.
-long double result_bytes(const Job& job);
+/// Upper bound of the size of the result file of the job, or of a part of it [byte]; the file is at
+/// most 3 % + 32 KiB (a part: 64 KiB) smaller. In floating point, which cannot overflow here.
+long double result_bytes(const Job& job, const std::optional<JobPart>& part = {});
 
-/// Creates the file, with no tile computed, under a temporary name, and renames it once it is
-/// synced to the disk. To be called by one rank. Throws Error, and leaves no file behind, if the
-/// folder is missing or not writable, or if there is not enough space.
+/// Creates the file of the job, or of a part of it, with no tile computed, under a temporary name,
+/// and renames it once it is synced to the disk. The fields of a part have the chunks of its tiles
+/// only. To be called by one rank. Throws Error, and leaves no file behind, if the folder is
+/// missing or not writable, or if there is not enough space.
 void create_result(
-    const std::string& path, const Job& job, const BetweenTiles& between_tiles = [] {});
+    const std::string& path, const Job& job, const std::optional<JobPart>& part = {},
+    const BetweenTiles& between_tiles = [] {});
 
 /// Throws Error if MPI cannot open files of this absolute path.
 void expect_path_for_mpi(const std::string& path);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "overturn/job/job.hpp"
+#include "overturn/problem/job_part.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/text/names.hpp"
 
@@ -54,8 +55,10 @@ struct TilesSummary {
     std::vector<AxisSummary> numbers; ///< coordinates that are equal at all points
     std::vector<Field> fields;        ///< in the job's order
     Shape tile_shape;                 ///< of a tile [points]
-    std::int64_t tiles = 0;
+    std::int64_t tiles = 0;           ///< that the file contains when it is complete
     std::int64_t tiles_done = 0;
+    std::int64_t tiles_of_job = 0; ///< more than `tiles` if the file is a part
+    std::optional<JobPart> part;
     std::optional<AuditCount> audit; ///< of all tiles, if the spectrum is filled
 };
 
@@ -84,8 +87,12 @@ public:
     /// The rest is for spectra and boundaries.
     const TilesSummary& tiles() const;
 
-    /// Names of the coordinates whose values do not match their checksums, if there are any.
+    /// Names of the coordinates whose values do not match their checksums, if there are any; of a
+    /// part, also the name of its skeleton.
     std::vector<std::string> damaged_coordinates() const;
+
+    /// The text with the checksums of the coordinates.
+    std::string coordinate_checksums() const;
 
     /// Numbers of the computed tiles whose values do not match their checksum, ascending. Reads all
     /// data.
@@ -102,8 +109,9 @@ private:
 };
 
 /// The file at the path, or nullopt if there is none. Throws Error if the path exists and is not a
-/// result file of this program version and job. Serial.
-std::optional<StoredResult> existing_result(const std::string& path, const Job& job);
+/// result file of this program version and job, or of this part of it. Serial.
+std::optional<StoredResult> existing_result(const std::string& path, const Job& job,
+                                            const std::optional<JobPart>& part = {});
 
 /// Clears the mark that says that a file is open for writing. HDF5 clears it on closing the file,
 /// so a run that is killed after its last tile leaves it set. A file that cannot be written is left

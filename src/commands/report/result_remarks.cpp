@@ -1,11 +1,14 @@
 #include "result_remarks.hpp"
 
+#include "overturn/text/error.hpp"
 #include "overturn/text/is_one_of.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include <boost/math/distributions/binomial.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <ranges>
 
 namespace overturn {
 
@@ -69,9 +72,32 @@ std::vector<std::string> remarks_on(const StoredResult& stored)
 
 std::string command_to_complete(const StoredResult& stored)
 {
-    return fmt::format("overturn {} JOB.toml -o {}, with the job file and the --set arguments of "
+    const auto& part = stored.tiles().part;
+    return fmt::format("overturn {} JOB.toml{} -o {}, with the job file and the --set arguments of "
                        "the first run",
-                       is_boundary(stored) ? "boundary" : "run", stored.path());
+                       is_boundary(stored) ? "boundary" : "run",
+                       part ? fmt::format(" --part {}/{}", part->number, part->count) : "",
+                       stored.path());
+}
+
+void expect_undamaged(const StoredResult& stored, const BetweenTiles& between_tiles)
+{
+    const std::string& path = stored.path();
+    if (const auto damaged = stored.damaged_coordinates(); !damaged.empty()) {
+        throw Error(exit_code::output,
+                    "\"{}\" is damaged: the values of its coordinates have changed: {}. "
+                    "Remove the file and recompute it.",
+                    path, fmt::join(damaged, ", "));
+    }
+    if (const auto damaged = stored.damaged_tiles(between_tiles); !damaged.empty()) {
+        constexpr std::ptrdiff_t most = 20; // so that the message stays short
+        throw Error(exit_code::output,
+                    "\"{}\" is damaged: the checksums of {} of {} finished tiles do not match "
+                    "(tile numbers: {}{}). Recompute them with {}.",
+                    path, damaged.size(), stored.tiles().tiles_done,
+                    fmt::join(damaged | std::views::take(most), ", "),
+                    std::ssize(damaged) > most ? ", ..." : "", command_to_complete(stored));
+    }
 }
 
 } // namespace overturn

@@ -17,4 +17,9 @@ std::vector<std::string> remarks_on(const StoredResult& stored);
 /// The command that computes missing and damaged tiles.
 std::string command_to_complete(const StoredResult& stored);
 
+/// Throws Error if coordinates or finished tiles of the file do not match their checksums. Reads
+/// all data.
+void expect_undamaged(
+    const StoredResult& stored, const BetweenTiles& between_tiles = [] {});
+
 } // namespace overturn

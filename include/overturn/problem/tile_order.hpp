@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numbers>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace overturn {
@@ -26,10 +27,17 @@ public:
         while (std::gcd(step_, tiles) != 1) {
             ++step_; // tiles - 1 has none
         }
+        inverse_ = inverse_of_step();
     }
 
     /// The tile at a place.
     std::int64_t tile(std::int64_t place) const { return (first_ + place * step_) % tiles_; }
+
+    /// The place of a tile.
+    std::int64_t place(std::int64_t tile) const
+    {
+        return (tile - first_ + tiles_) % tiles_ * inverse_ % tiles_;
+    }
 
     /// The places of tiles, in ascending order.
     std::vector<std::int64_t> places_of(const std::vector<std::int64_t>& tiles) const
@@ -52,9 +60,24 @@ public:
     }
 
 private:
+    /// Its product with the step is 1 mod n, by Euclid's algorithm: each remainder is the step
+    /// times its factor mod n.
+    std::int64_t inverse_of_step() const
+    {
+        std::int64_t before = tiles_, remainder = step_;
+        std::int64_t factor_before = 0, factor = 1;
+        while (remainder > 1) {
+            const std::int64_t quotient = before / remainder;
+            before = std::exchange(remainder, before - quotient * remainder);
+            factor_before = std::exchange(factor, factor_before - quotient * factor);
+        }
+        return factor < 0 ? factor + tiles_ : factor;
+    }
+
     std::int64_t tiles_;
     std::int64_t first_ = 0;
     std::int64_t step_ = 1;
+    std::int64_t inverse_ = 1; ///< of the step, mod n
 };
 
 } // namespace overturn

@@ -1,4 +1,4 @@
-#include "overturn/farm/tile_order.hpp"
+#include "overturn/problem/tile_order.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,20 @@ TEST(TileOrder, HasAPlaceForEveryTile)
         std::vector<int> count(std::size_t(tiles), 0);
         for (std::int64_t place = 0; place < tiles; ++place) {
             ++count[std::size_t(order.tile(place))];
+            EXPECT_EQ(order.place(order.tile(place)), place) << tiles;
         }
         EXPECT_EQ(std::ranges::count(count, 1), tiles) << tiles;
+    }
+}
+
+TEST(TileOrder, KnowsThePlacesOfAsManyTilesAsThereMayBe)
+{
+    for (const std::int64_t tiles :
+         {std::int64_t(1) << 31, (std::int64_t(1) << 31) - 1, std::int64_t(1) << 40}) {
+        const TileOrder order(tiles);
+        for (const std::int64_t place : {std::int64_t(0), tiles / 3, tiles - 1}) {
+            EXPECT_EQ(order.place(order.tile(place)), place) << tiles;
+        }
     }
 }
 

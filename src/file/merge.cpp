@@ -1,0 +1,263 @@
+#include "overturn/file/merge.hpp"
+
+#include "job_difference.hpp"
+#include "layout.hpp"
+#include "netcdf.hpp"
+#include "own_dataset.hpp"
+#include "tile_layout.hpp"
+#include "working_file.hpp"
+
+#include "overturn/file/provenance.hpp"
+#include "overturn/text/error.hpp"
+#include "overturn/text/mapped.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <memory>
+
+namespace overturn {
+
+using hdf5::check;
+using hdf5::Handle;
+using layout::in_run_group;
+
+namespace {
+
+const JobPart& part_of(const StoredResult& stored)
+{
+    return *stored.tiles().part;
+}
+
+template <class... Arguments>
+[[noreturn]] void refuse(fmt::format_string<Arguments...> text, Arguments&&... arguments)
+{
+    throw Error(exit_code::output, fmt::format(text, std::forward<Arguments>(arguments)...));
+}
+
+/// Throws Error unless both files have the same job. advice: what to do with the file.
+void expect_same_job(const StoredResult& stored, const StoredResult& other, std::string_view advice)
+{
+    const FileOrigin& origin = stored.origin();
+    const FileOrigin& expected = other.origin();
+    const std::string whose = fmt::format("\"{}\"", other.path());
+    if (origin.kind != expected.kind) {
+        refuse("\"{}\" is an {}, but {} an {}. {}", stored.path(), name_of(origin.kind), whose,
+               name_of(expected.kind), advice);
+    }
+    if (origin.resolved_job != expected.resolved_job) {
+        refuse("\"{}\" belongs to another job than {}: {}{}", stored.path(), whose,
+               differing_line(origin.resolved_job, expected.resolved_job, whose), advice);
+    }
+    if (stored.coordinate_checksums() != other.coordinate_checksums()) {
+        refuse("\"{}\" has other values of coordinates than {}: it was computed with another C "
+               "library. {}",
+               stored.path(), whose, advice);
+    }
+}
+
+void expect_part_of_this_program(const StoredResult& stored)
+{
+    if (!stored.tiles().part) {
+        refuse("\"{}\" is the file of all tiles of a job, not of a part of it. Give the files that "
+               "overturn run --part has written.",
+               stored.path());
+    }
+    const FileOrigin& origin = stored.origin();
+    if (origin.program_version != program_version() || origin.program_commit != program_commit()) {
+        refuse("\"{}\" was computed by overturn {} (commit {}), but this is overturn {} (commit "
+               "{}), which may write another file. Use that version.",
+               stored.path(), origin.program_version, origin.program_commit, program_version(),
+               program_commit());
+    }
+}
+
+/// Throws Error if a part is missing, or given twice. parts: sorted.
+void expect_each_part(const std::vector<StoredResult>& parts)
+{
+    const auto same = std::ranges::adjacent_find(
+        parts, {}, [](const StoredResult& stored) { return part_of(stored).number; });
+    if (same != parts.end()) {
+        refuse("\"{}\" and \"{}\" are both {}. Give one of them.", same->path(),
+               std::next(same)->path(), words_of(part_of(*same)));
+    }
+    constexpr std::size_t most = 20; // so that the message stays short
+    std::vector<std::int64_t> missing;
+    const std::int64_t count = part_of(parts.front()).count;
+    auto given = parts.begin();
+    for (std::int64_t number = 1; number <= count && missing.size() <= most; ++number) {
+        if (given != parts.end() && part_of(*given).number == number) {
+            ++given;
+        } else {
+            missing.push_back(number);
+        }
+    }
+    if (!missing.empty()) {
+        const bool are_more = missing.size() > most;
+        missing.resize(std::min(missing.size(), most));
+        refuse("of {} parts, {} {} missing: {}{}. Give all files, or compute the missing ones with "
+               "overturn run --part.",
+               count, count - std::ssize(parts), count - std::ssize(parts) == 1 ? "is" : "are",
+               fmt::join(missing, ", "), are_more ? ", ..." : "");
+    }
+}
+
+void expect_complete(const std::vector<StoredResult>& parts)
+{
+    std::vector<std::string> unfinished;
+    for (const StoredResult& part : parts) {
+        const TilesSummary& tiles = part.tiles();
+        if (tiles.tiles_done < tiles.tiles) {
+            unfinished.push_back(fmt::format("\"{}\" lacks {} of {} tiles", part.path(),
+                                             tiles.tiles - tiles.tiles_done, tiles.tiles));
+        }
+    }
+    if (!unfinished.empty()) {
+        refuse("parts are unfinished: {}. Run the same {} again to complete {}, then merge.",
+               fmt::join(unfinished, ", "), unfinished.size() == 1 ? "command" : "commands",
+               unfinished.size() == 1 ? "it" : "them");
+    }
+}
+
+/// A part that is open for reading.
+struct OpenPart {
+    const StoredResult& stored;
+    Handle file;
+
+    /// Returns the result of `read`; converts its errors to an Error that names the file.
+    template <class Read>
+    auto or_refused(const Read& read) const
+    {
+        try {
+            return read();
+        } catch (const hdf5::Hdf5Error& error) {
+            refuse("\"{}\" cannot be read or is damaged: {}.", stored.path(), error.what());
+        }
+    }
+
+    explicit OpenPart(const StoredResult& part)
+        : stored(part), file(or_refused([&] { return hdf5::open_to_read(part.path()); }))
+    {}
+
+    template <class Value>
+    std::vector<Value> of_run_group(const char* name) const
+    {
+        return or_refused([&] {
+            return read_all<Value>(open_own_dataset(file, in_run_group(name)),
+                                   stored.origin().bytes);
+        });
+    }
+
+    StoredField field_like(const StoredField& merged) const
+    {
+        return or_refused([&] {
+            return StoredField{merged.field,
+                               open_own_dataset(file, std::string(name_of(merged.field))),
+                               merged.crossing};
+        });
+    }
+};
+
+void write_bytes(const std::string& path, const std::vector<std::uint8_t>& bytes)
+{
+    errno = 0;
+    std::ofstream stream(path, std::ios::binary);
+    stream.write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
+    stream.close();
+    if (!stream) {
+        throw hdf5::Hdf5Error(system_reason(errno));
+    }
+}
+
+/// Writes numbers of tiles, such as the checksums, each from the part to which its tile belongs.
+void merge_numbers(hid_t file, const char* name, const std::vector<OpenPart>& parts,
+                   const JobDivision& division)
+{
+    std::vector<std::uint64_t> merged;
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+        const auto numbers = parts[part].of_run_group<std::uint64_t>(name);
+        merged.resize(numbers.size());
+        for (std::size_t tile = 0; tile < numbers.size(); ++tile) {
+            if (division.part_of(std::int64_t(tile)) == std::int64_t(part + 1)) {
+                merged[tile] = numbers[tile];
+            }
+        }
+    }
+    check(H5Dwrite(open_own_dataset(file, in_run_group(name)), H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL,
+                   H5P_DEFAULT, merged.data()));
+}
+
+} // namespace
+
+void expect_all_parts(std::vector<StoredResult>& parts)
+{
+    std::ranges::for_each(parts, expect_part_of_this_program);
+    const StoredResult& first = parts.front();
+    for (const StoredResult& part : parts) {
+        expect_same_job(
+            part, first,
+            "Compute it again with the job file and the --set arguments of the others.");
+        if (part_of(part).count != part_of(first).count) {
+            refuse("\"{}\" is {}, but \"{}\" is {}. Give the parts of one division.", part.path(),
+                   words_of(part_of(part)), first.path(), words_of(part_of(first)));
+        }
+    }
+    std::ranges::stable_sort(parts, {}, [](const auto& part) { return part_of(part).number; });
+    expect_each_part(parts);
+    expect_complete(parts);
+}
+
+void expect_merged(const StoredResult& merged, const StoredResult& part)
+{
+    constexpr std::string_view advice = "Move it away, or choose another name with -o.";
+    expect_same_job(merged, part, advice);
+    const TilesSummary& tiles = merged.tiles();
+    if (tiles.part) {
+        refuse("\"{}\" is {}, not the file of all parts. Choose another name with -o.",
+               merged.path(), words_of(*tiles.part));
+    }
+    if (tiles.tiles_done < tiles.tiles) {
+        refuse("\"{}\" exists, but lacks {} of {} tiles. {}", merged.path(),
+               tiles.tiles - tiles.tiles_done, tiles.tiles, advice);
+    }
+}
+
+void merge_parts(const std::vector<StoredResult>& parts, const std::string& path,
+                 const BetweenTiles& on_tile)
+{
+    const TileLayout tiles = tile_layout_of(parts.front().tiles());
+    const JobDivision division(tiles.tiling.size(), std::ssize(parts));
+    const std::vector<OpenPart> open(parts.begin(), parts.end());
+    const auto chunks_of = [&](const StoredField& merged) -> ChunkOfTile {
+        const auto fields = std::make_shared<std::vector<StoredField>>();
+        for (const OpenPart& part : open) {
+            fields->push_back(part.field_like(merged));
+        }
+        return [&, fields, chunk = FieldValues()](const Tile& tile) mutable -> const FieldValues& {
+            on_tile();
+            const auto part = std::size_t(division.part_of(tile.number) - 1);
+            return chunk = open[part].or_refused([&] {
+                return read_chunk((*fields)[part], tile, tiles.tiling.tile_shape());
+            });
+        };
+    };
+    netcdf::create_in_place(path, [&](const std::string& temporary) {
+        const auto skeleton = open.front().of_run_group<std::uint8_t>(layout::skeleton);
+        expect_space(path, static_cast<long double>(skeleton.size()) + bytes_of_tiles(tiles),
+                     "Free some space, or choose another disk with -o.");
+        write_bytes(temporary, skeleton);
+        add_tiles(temporary, tiles, {}, chunks_of);
+        Handle file(H5Fopen(temporary.c_str(), H5F_ACC_RDWR, hdf5::file_access()), H5Fclose);
+        merge_numbers(file, layout::checksum, open, division);
+        if (tiles.is_filled) {
+            merge_numbers(file, layout::audit_checked, open, division);
+            merge_numbers(file, layout::audit_wrong, open, division);
+        }
+        file.close();
+        expect_merged(StoredResult(temporary), parts.front());
+    });
+}
+
+} // namespace overturn
