@@ -10,13 +10,13 @@ import unittest
 import h5py
 import numpy as np
 
-from program import ENVIRONMENT, JOBS, OVERTURN, PATIENCE, Scratch
+from program import ENVIRONMENT, JOBS, MPIEXEC, OVERTURN, PATIENCE, Scratch, checksum
 
 SCRIPT = JOBS / "slurm" / "run_until_done"
 
 
 # The scripts that need arguments or the environment of another program.
-SCRIPTS = ["jobs/slurm/many_nodes.sbatch", "jobs/slurm/one_node.sbatch", "jobs/slurm/run_until_done",
+SCRIPTS = ["jobs/slurm/array.sbatch", "jobs/slurm/many_nodes.sbatch", "jobs/slurm/one_node.sbatch", "jobs/slurm/run_until_done",
            "tests/arm/check_arm", "tests/faults/cut_link", "tests/fuzz/run_targets", "tests/install/check_wheel",
            "tests/layout/sources_are_formatted", "tests/support/under_other_libraries",
            "tests/support/under_valgrind", "tools/check values", "tools/check fill x"]
@@ -48,8 +48,8 @@ class ABatchJob(Scratch):
         scontrol.write_text('#!/bin/sh\necho "$@" >requeued\nkill $PPID\n')  # like Slurm
         scontrol.chmod(0o755)
 
-    def run_until_done(self, *command):
-        environment = ENVIRONMENT | {"PATH": f"{self.folder}:{os.environ['PATH']}", "SLURM_JOB_ID": "7"}
+    def run_until_done(self, *command, **variables):
+        environment = ENVIRONMENT | {"PATH": f"{self.folder}:{os.environ['PATH']}", "SLURM_JOB_ID": "7"} | variables
         return subprocess.run([SCRIPT, OVERTURN, "out.h5", *command], cwd=self.folder, env=environment,
                               timeout=PATIENCE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
@@ -87,6 +87,31 @@ class ABatchJob(Scratch):
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("23 tiles were added: requeueing", result.stdout)
         self.assertEqual((self.folder / "requeued").read_text(), "requeue 7\n")
+
+    def test_is_requeued_alone_if_it_is_a_task_of_an_array(self):
+        shutil.copy(self.folder / "whole.h5", self.folder / "unfinished.h5")
+        self.forget("unfinished.h5", 3)
+        # The number 7 of the array would requeue all of its tasks.
+        self.run_until_done("cp", "unfinished.h5", "out.h5", SLURM_ARRAY_JOB_ID="7", SLURM_ARRAY_TASK_ID="3")
+        self.assertEqual((self.folder / "requeued").read_text(), "requeue 7_3\n")
+
+    def test_of_an_array_computes_a_part_and_one_without_array_merges_them(self):
+        def array_job(**variables):
+            return subprocess.run(["bash", JOBS / "slurm" / "array.sbatch", "small.toml", "out.h5", "3", "--kernel", "double"],
+                                  cwd=self.folder, timeout=PATIENCE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                  env=ENVIRONMENT | {"SLURM_JOB_ID": "7", "SLURM_SUBMIT_DIR": str(self.folder),
+                                                     "OVERTURN_CHECKOUT": str(JOBS.parent)} | variables)
+
+        for task in "13":
+            self.assertEqual(array_job(SLURM_ARRAY_JOB_ID="7", SLURM_ARRAY_TASK_ID=task).returncode, 0)
+        result = array_job()
+        self.assertEqual(result.returncode, 74)
+        self.assertIn("out.part-2-of-3.h5", result.stdout)
+        part = array_job(SLURM_ARRAY_JOB_ID="7", SLURM_ARRAY_TASK_ID="2", SLURM_NTASKS="2", OVERTURN_LAUNCHER=f"{MPIEXEC} -n 2")
+        self.assertIn("out.part-2-of-3.h5: part 2 of 3: 20.0 k points in 8 tiles; 2 ranks, kernel double", part.stdout)
+        self.assertIn("job 7_2: done", part.stdout)
+        self.assertEqual(array_job().returncode, 0)
+        self.assertEqual(checksum(self.folder / "out.h5"), checksum(self.folder / "whole.h5"))
 
 
 if __name__ == "__main__":
