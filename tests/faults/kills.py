@@ -3,12 +3,13 @@
 
     kills.py [--kills N] [--seed S]
 
-A third of the kills hit runs under a pulse, a third runs of a filled spectrum, a third runs under
-records. Each hits a run of 1, 2, 3 or 5 ranks that creates or resumes a file: at a random write to
-the file (including writes that create it and those between a tile's values and its checksum; in
-half of the cases after half of the bytes), or a rank, mpirun, or all processes at a random time.
-After each kill, tiles marked as done must be correct, byte for byte, and each completed file must
-equal that of an undisturbed run. Requires OVERTURN, MPIEXEC and FAULTY_DISK (the library) in the
+A fifth of the kills hit runs under a pulse, a fifth runs of a filled spectrum, a fifth runs under
+records, a fifth runs of a part of a job, and a fifth merges of three parts. Each hits a run of 1, 2,
+3 or 5 ranks, or a merge, that creates or resumes a file: at a random write to the file (including
+writes that create it and those between a tile's values and its checksum; in half of the cases after
+half of the bytes), or a rank, mpirun, or all processes at a random time. After each kill, tiles
+marked as done must be correct, byte for byte, and each completed file must equal that of an
+undisturbed run; that of a merge appears when it is complete. Requires OVERTURN, MPIEXEC and FAULTY_DISK (the library) in the
 environment."""
 
 import argparse
@@ -80,9 +81,14 @@ class Loss(Exception):
 class Runs:
     """Runs of a job in a folder, disturbed and undisturbed."""
 
+    RANKS = (1, 2, 3, 5)
+    PART = ()  # arguments
+    MARKS_TILES = True  # one by one
+
     def __init__(self, folder, job, chance):
         self.folder, self.chance = pathlib.Path(folder), chance
         (self.folder / "job.toml").write_text(job)
+        self.prepare()
         self.file = self.folder / "killed.h5"
         self.counts = collections.Counter()
         self.torn_checksums = set()
@@ -92,16 +98,19 @@ class Runs:
         self.whole = (self.folder / "whole.h5").read_bytes()
         with h5py.File(self.folder / "whole.h5") as file:
             self.values = values_of(file)
-            self.tiles = len(file["run/checksum"])
+            self.tiles = np.count_nonzero(file["run/checksum"])
             self.side = int(file["run/checksum"].attrs["tile_shape"][-1])
-            per_tile = len({"checksum", "audit_checked", "audit_wrong"} & set(file["run"]))
+            per_tile = len({"checksum", "audit_checked", "audit_wrong"} & set(file["run"])) * self.MARKS_TILES
         # A tile consists of whole rows of its chunk and takes a write per field and one for each of
         # its values in the group `run`, the checksum among them; the other writes create the file.
         self.writes_of_tiles = self.tiles * (len(self.values) + per_tile)
         self.writes = self.count_writes()
 
+    def prepare(self):
+        """Computes what the command needs."""
+
     def command(self, ranks, output):
-        return [*([] if ranks == 1 else under_mpi(ranks)), OVERTURN, "run", "job.toml", "-o", output]
+        return [*([] if ranks == 1 else under_mpi(ranks)), OVERTURN, "run", "job.toml", *self.PART, "-o", output]
 
     def run_undisturbed(self, output, ranks, **more):
         done = subprocess.run(self.command(ranks, output), cwd=self.folder, timeout=PATIENCE,
@@ -207,7 +216,7 @@ class Runs:
                 slice(column * side, (column + 1) * side))
 
     def finish(self):
-        self.run_undisturbed(self.file.name, self.chance.choice((1, 2, 3)))
+        self.run_undisturbed(self.file.name, self.chance.choice(self.RANKS[:3]))
         if self.file.read_bytes() != self.whole:
             raise Loss("the resumed file differs from that of an undisturbed run")
         left = {path.name for path in self.folder.iterdir()} & {"killed.h5.part", "killed.h5.lock"}
@@ -218,7 +227,7 @@ class Runs:
         self.counts["files finished"] += 1
 
     def kill_once(self):
-        ranks = self.chance.choice((1, 2, 3, 5))
+        ranks = self.chance.choice(self.RANKS)
         way = self.chance.choice((self.kill_at_a_write, self.kill_at_a_time))(ranks)
         where = self.look()
         if self.last == 0:
@@ -229,6 +238,31 @@ class Runs:
             self.counts[f"  {where}"] += 1
         if self.last == 0 or self.chance.random() < 0.3:
             self.finish()
+
+
+class PartRuns(Runs):
+    PART = ("--part", "2/3")
+
+
+class Merges(Runs):
+    """The file of all parts in place of that of a run. All checksums are written at the end."""
+
+    RANKS = (1,)
+    MARKS_TILES = False
+
+    def prepare(self):
+        for number in "123":
+            subprocess.run([OVERTURN, "run", "job.toml", "--part", f"{number}/3"], cwd=self.folder, env=ENVIRONMENT,
+                           check=True, timeout=PATIENCE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def command(self, ranks, output):
+        return [OVERTURN, "merge", *(f"job.part-{number}-of-3.h5" for number in "123"), "-o", output]
+
+    def look(self):
+        where = super().look()
+        if where == "between the tiles":
+            raise Loss("the file of a merge lacks tiles")
+        return where
 
 
 def values_of(file):
@@ -269,20 +303,21 @@ def main():
     arguments = parser.parse_args()
     chance = random.Random(arguments.seed)
     counts = collections.Counter()
-    for name, job in (("a pulse", PULSE), ("a pulse, filled", FILLED),
-                      ("records", RECORDS)):
+    kinds = (("runs under a pulse", Runs, PULSE), ("filled runs", Runs, FILLED), ("runs under records", Runs, RECORDS),
+             ("runs of a part", PartRuns, PULSE), ("merges of parts", Merges, FILLED))
+    for name, kind, job in kinds:
         with tempfile.TemporaryDirectory() as folder:
-            runs = Runs(folder, job, chance)
-            wanted = arguments.kills // 3
+            runs = kind(folder, job, chance)
+            wanted = -(-arguments.kills // len(kinds))
             try:
                 while runs.counts["kills"] < wanted:
                     before = runs.counts["kills"]
                     runs.kill_once()
                     if runs.counts["kills"] % 20 == 0 and runs.counts["kills"] > before:
-                        print(f"{runs.counts['kills']} of {wanted} kills under {name}", flush=True)
+                        print(f"{runs.counts['kills']} of {wanted} kills: {name}", flush=True)
                 runs.finish()
             except Loss as loss:
-                sys.exit(f"LOST after {runs.counts['kills']} kills under {name} (seed "
+                sys.exit(f"LOST after {runs.counts['kills']} kills: {name} (seed "
                          f"{arguments.seed}): {loss}")
             counts += runs.counts
     for what in sorted(counts, key=lambda name: (name[0] == " ", name)):
