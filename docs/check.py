@@ -23,6 +23,7 @@ LANGUAGES = ("sh", "python", "toml", "r")
 NOT_RUN = {
     ("README.md", "tools/quickstart"): "installs, builds and tests, as CI does",
     ("docs/clusters.md", "sbatch"): "needs Slurm; tools/check slurm runs the scripts",
+    ("docs/clusters.md", "job=(jobs/figure_07a.toml"): "needs Slurm, like the block before",
     ("docs/installing.md", "cmake --preset release"): "configures the build used by the other blocks",
     ("docs/developing.md", "cmake --preset dev"): "a second build; tools/check docs has already made the first",
     ("docs/opensees.md", "/usr/bin/python3 -m venv"): "installs OpenSeesPy from PyPI; takes a quarter of an hour",
