@@ -66,7 +66,8 @@ void limit_processor_time(rlim_t seconds)
 
 } // namespace
 
-GuardedReading::GuardedReading(const std::string& path, const std::string& lock)
+GuardedReading::GuardedReading(const std::string& path, const std::string& lock,
+                               std::uint64_t more_bytes)
 {
     for (std::size_t i = 0; i < fatal_signals.size(); ++i) {
         handler_data.messages[i] =
@@ -88,7 +89,7 @@ GuardedReading::GuardedReading(const std::string& path, const std::string& lock)
 
     std::error_code none;
     const std::uintmax_t found = std::filesystem::file_size(path, none);
-    const rlim_t bytes = none ? 0 : rlim_t(found);
+    const rlim_t bytes = (none ? 0 : rlim_t(found)) + more_bytes;
     limit_processor_time(60 + 60 * (bytes >> 30));
     getrlimit(RLIMIT_DATA, &replaced.data);
 #ifndef __SANITIZE_ADDRESS__ // which reserves terabytes of address space at the start

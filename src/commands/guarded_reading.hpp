@@ -2,6 +2,7 @@
 // others.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace overturn {
@@ -13,7 +14,9 @@ namespace overturn {
 class GuardedReading {
 public:
     /// lock: a file that the handler removes as well, because no destructor runs; empty: none.
-    explicit GuardedReading(const std::string& path, const std::string& lock = "");
+    /// more_bytes: of other files that are read, too.
+    explicit GuardedReading(const std::string& path, const std::string& lock = "",
+                            std::uint64_t more_bytes = 0);
     ~GuardedReading();
     GuardedReading(const GuardedReading&) = delete;
     GuardedReading& operator=(const GuardedReading&) = delete;

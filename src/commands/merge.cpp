@@ -87,15 +87,20 @@ int merge(const MergeOptions& options)
         return exit_code::complete;
     }
     const TilesSummary& tiles = parts.front().tiles();
+    std::uint64_t bytes = 0;
     {
-        Steps steps(tiles.tiles_of_job, "tiles checked");
+        Steps steps(tiles.tiles_of_job, "tiles");
         for (const StoredResult& part : parts) {
             const GuardedReading guarded(part.path(), lock.path());
             expect_undamaged(part, [&] { steps.next(); });
+            bytes += part.origin().bytes;
         }
     }
-    Steps steps(tiles.tiles_of_job * std::ssize(tiles.fields), "chunks written");
-    merge_parts(parts, output, [&] { steps.next(); });
+    {
+        const GuardedReading guarded(parts.front().path(), lock.path(), bytes);
+        Steps steps(tiles.tiles_of_job * std::ssize(tiles.fields), "chunks");
+        merge_parts(parts, output, [&] { steps.next(); });
+    }
     print_line(fmt::format("{}: merged {} {} from {} {}", output, tiles.tiles_of_job,
                            noun_of(tiles.tiles_of_job, "tiles"), parts.size(),
                            noun_of(std::ssize(parts), "parts")));

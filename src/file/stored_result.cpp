@@ -257,10 +257,10 @@ struct StoredResult::Open {
                                place_of_crossing(tiles.axes)};
         });
         for (std::int64_t number = 0; number < all.size(); ++number) {
-            between_tiles();
             if (checksums[std::size_t(number)] == not_computed_checksum) {
                 continue;
             }
+            between_tiles();
             const Tile tile = all[number];
             use(tile, mapped(stored, [&](const StoredField& f) { return read_tile(f, tile); }));
         }

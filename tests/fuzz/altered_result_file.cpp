@@ -1,6 +1,8 @@
 #include "altered_result_file.hpp"
 
+#include "file/tile_access.hpp"
 #include "overturn/file/result_writer.hpp"
+#include "overturn/text/mapped.hpp"
 #include "support/given_values.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -64,10 +66,12 @@ constexpr std::array objects{"slenderness",
                              "run/checksum",
                              "run/job_resolved",
                              "run/coordinate_checksums",
+                             "run/skeleton",
                              "run",
                              "/"};
 constexpr std::array attributes{"kind",           "title",      "program_version", "program_commit",
-                                "format_version", "dimensions", "tile_shape",      "units"};
+                                "format_version", "dimensions", "tile_shape",      "units",
+                                "part",           "parts",      "checksum"};
 constexpr std::array<hsize_t, 12> lengths{0,
                                           1,
                                           2,
@@ -220,16 +224,21 @@ void overwrite_values(hid_t file, Recipe& recipe)
     H5Dclose(dataset);
 }
 
-const std::string& file_to_alter()
+/// Without tiles, or, as a part, with all of them.
+std::string file_to_alter(bool is_part)
 {
-    static const std::string bytes = [] {
-        const ScratchFolder folder;
-        const std::string path = folder / "as_written.h5";
-        const Job job = job_to_alter();
-        create_result(path, job);
-        return bytes_of(path);
-    }();
-    return bytes;
+    const ScratchFolder folder;
+    const std::string path = folder / "as_written.h5";
+    const Job job = job_to_alter();
+    create_result(path, job, is_part ? std::optional(JobPart{1, 1}) : std::nullopt);
+    if (is_part) {
+        const Tile tile = tiling_of(job.problem)[0];
+        const std::vector<FieldValues> values = mapped(
+            job.problem.fields, [&](Field field) { return not_computed(field, tile.points()); });
+        const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+        write_number(hdf5::open_dataset(file, "run/checksum"), tile.number, tile_checksum(values));
+    }
+    return bytes_of(path);
 }
 
 } // namespace
@@ -250,7 +259,8 @@ Job job_to_alter()
 void write_altered_result_file(const std::string& path, std::string_view recipe,
                                const std::string& elsewhere)
 {
-    write_bytes(path, file_to_alter());
+    static const std::array files{file_to_alter(false), file_to_alter(true)};
+    write_bytes(path, files[recipe.size() % 2]);
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     Recipe steps(recipe);
     while (!steps.is_over()) {

@@ -23,6 +23,10 @@ int run(const RunOptions&)
 {
     refuse_to_run();
 }
+int merge(const MergeOptions&)
+{
+    refuse_to_run();
+}
 int check(const JobSource&)
 {
     refuse_to_run();

@@ -2,7 +2,7 @@
 
 #include "altered_result_file.hpp"
 
-#include "overturn/file/result_writer.hpp"
+#include "overturn/file/merge.hpp"
 #include "overturn/file/stored_result.hpp"
 #include "overturn/text/error.hpp"
 #include "support/scratch_folder.hpp"
@@ -25,6 +25,17 @@ bool is_answered(const Question& question)
     }
 }
 
+/// As `overturn merge` does with the only part of a job.
+void merge(const StoredResult& stored)
+{
+    std::vector<StoredResult> parts{stored};
+    expect_all_parts(parts);
+    if (stored.damaged_coordinates().empty() && stored.damaged_tiles().empty()) {
+        const ScratchFolder folder;
+        merge_parts(parts, folder / "merged.h5", [] {});
+    }
+}
+
 } // namespace
 
 Verdict use_as_result_file(const std::string& path)
@@ -37,6 +48,7 @@ Verdict use_as_result_file(const std::string& path)
                              });
     if (is_opened) {
         is_answered([&] { stored->count_lines(); });
+        is_answered([&] { merge(*stored); });
     }
     stored.reset();
     is_answered([&] { existing_result(path, job_to_alter()); });
