@@ -46,12 +46,13 @@ def new_folder(add_cleanup):
 
 
 def run_overturn(folder, command, job, name, *settings):
-    """Runs the program; `job` is a path, or the text of a job."""
+    """Runs the program; `job` is a path, or the text of a job. settings: of its keys, or options."""
     if not isinstance(job, pathlib.Path):
         (folder / "job.toml").write_text(job)
         job = "job.toml"
-    subprocess.run([os.environ["OVERTURN"], command, job, "-o", name, *(f"--set={each}" for each in settings)],
-                   cwd=folder, check=True, capture_output=True, timeout=PATIENCE)
+    options = [each if each.startswith("--") else f"--set={each}" for each in settings]
+    subprocess.run([os.environ["OVERTURN"], command, job, "-o", name, *options], cwd=folder, check=True,
+                   capture_output=True, timeout=PATIENCE)
 
 
 class InAFolder(unittest.TestCase):

@@ -71,6 +71,16 @@ class TestATileWithoutAMark(InAFolder):
         self.assertFalse([word for word in words if "safe" in word])
         self.assertIn("unfinished: 5 of 6 tiles computed", " ".join(words))
 
+    def test_of_another_part_is_hatched_too(self):
+        self.overturn("run", "spectrum.h5", "--part=2/3")
+        words = self.words()
+        self.assertIn("not computed yet", words)
+        self.assertFalse([word for word in words if "safe" in word])
+        self.assertIn("part 2 of 3, unfinished: 2 of 6 tiles computed", " ".join(words))
+        with overturn.open(self.folder / "spectrum.h5") as part:
+            self.assertEqual((part.attrs["part"], part.attrs["parts"]), (2, 3))
+            self.assertTrue(((part.region == NOT_COMPUTED) == np.isnan(part.margin)).all())
+
     def test_has_no_end_states(self):
         self.compute()
         with_zeros = self.picture(tool="plot_landing")
