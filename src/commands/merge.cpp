@@ -61,7 +61,8 @@ bool is_merged(const std::string& path, const StoredResult& part, const OutputLo
     if (!std::filesystem::exists(path, reported_by_open)) {
         return false;
     }
-    const StoredResult merged = opened(path, lock);
+    const GuardedReading guarded(path, lock.path());
+    const StoredResult merged(path);
     expect_merged(merged, part);
     expect_undamaged(merged);
     return true;
@@ -86,6 +87,7 @@ int merge(const MergeOptions& options)
         print_line(output + " is already complete.");
         return exit_code::complete;
     }
+    expect_room_for_merged(parts.front(), output);
     const TilesSummary& tiles = parts.front().tiles();
     std::uint64_t bytes = 0;
     {

@@ -74,6 +74,18 @@ void expect_part_of_this_program(const StoredResult& stored)
     }
 }
 
+/// Items that are listed in a message, so that it stays short.
+constexpr std::size_t most_listed = 20;
+
+/// The items, and ", ..." if there are more than are listed.
+template <class Item>
+std::string listed(std::vector<Item> items)
+{
+    const bool are_more = items.size() > most_listed;
+    items.resize(std::min(items.size(), most_listed));
+    return fmt::format("{}{}", fmt::join(items, ", "), are_more ? ", ..." : "");
+}
+
 /// Throws Error if a part is missing, or given twice. parts: sorted.
 void expect_each_part(const std::vector<StoredResult>& parts)
 {
@@ -83,11 +95,10 @@ void expect_each_part(const std::vector<StoredResult>& parts)
         refuse("\"{}\" and \"{}\" are both {}. Give one of them.", same->path(),
                std::next(same)->path(), words_of(part_of(*same)));
     }
-    constexpr std::size_t most = 20; // so that the message stays short
     std::vector<std::int64_t> missing;
     const std::int64_t count = part_of(parts.front()).count;
     auto given = parts.begin();
-    for (std::int64_t number = 1; number <= count && missing.size() <= most; ++number) {
+    for (std::int64_t number = 1; number <= count && missing.size() <= most_listed; ++number) {
         if (given != parts.end() && part_of(*given).number == number) {
             ++given;
         } else {
@@ -95,12 +106,10 @@ void expect_each_part(const std::vector<StoredResult>& parts)
         }
     }
     if (!missing.empty()) {
-        const bool are_more = missing.size() > most;
-        missing.resize(std::min(missing.size(), most));
-        refuse("of {} parts, {} {} missing: {}{}. Give all files, or compute the missing ones with "
+        refuse("of {} parts, {} {} missing: {}. Give all files, or compute the missing ones with "
                "overturn run --part.",
                count, count - std::ssize(parts), count - std::ssize(parts) == 1 ? "is" : "are",
-               fmt::join(missing, ", "), are_more ? ", ..." : "");
+               listed(missing));
     }
 }
 
@@ -116,7 +125,7 @@ void expect_complete(const std::vector<StoredResult>& parts)
     }
     if (!unfinished.empty()) {
         refuse("parts are unfinished: {}. Run the same {} again to complete {}, then merge.",
-               fmt::join(unfinished, ", "), unfinished.size() == 1 ? "command" : "commands",
+               listed(unfinished), unfinished.size() == 1 ? "command" : "commands",
                unfinished.size() == 1 ? "it" : "them");
     }
 }
@@ -224,6 +233,14 @@ void expect_merged(const StoredResult& merged, const StoredResult& part)
     }
 }
 
+void expect_room_for_merged(const StoredResult& part, const std::string& path)
+{
+    const PartFile place(path);
+    const auto skeleton = OpenPart(part).of_run_group<std::uint8_t>(layout::skeleton);
+    expect_space(path, bytes_of_tiles(tile_layout_of(part.tiles())) + skeleton.size(),
+                 "Free some space, or choose another disk with -o.");
+}
+
 void merge_parts(const std::vector<StoredResult>& parts, const std::string& path,
                  const BetweenTiles& on_tile)
 {
@@ -244,10 +261,7 @@ void merge_parts(const std::vector<StoredResult>& parts, const std::string& path
         };
     };
     netcdf::create_in_place(path, [&](const std::string& temporary) {
-        const auto skeleton = open.front().of_run_group<std::uint8_t>(layout::skeleton);
-        expect_space(path, static_cast<long double>(skeleton.size()) + bytes_of_tiles(tiles),
-                     "Free some space, or choose another disk with -o.");
-        write_bytes(temporary, skeleton);
+        write_bytes(temporary, open.front().of_run_group<std::uint8_t>(layout::skeleton));
         add_tiles(temporary, tiles, {}, chunks_of);
         Handle file(H5Fopen(temporary.c_str(), H5F_ACC_RDWR, hdf5::file_access()), H5Fclose);
         merge_numbers(file, layout::checksum, open, division);
