@@ -118,8 +118,7 @@ std::size_t count_stored(hid_t dataset, const hdf5::Type& type, std::uint64_t by
         require_that(chunks || length <= most / bytes_per_value / count, "is larger than the file");
         count *= length;
     }
-    require_that(is_stored(dataset, creation, shape, bytes_per_value, chunks),
-                 chunks ? "has not the values of its tiles" : "lacks values");
+    require_that(is_stored(dataset, creation, shape, bytes_per_value, chunks), "lacks values");
     return count;
 }
 
