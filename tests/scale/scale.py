@@ -3,7 +3,8 @@
 
     scale.py [FOLDER] [--part PART] [--points-per-side N] [--more-points-per-side N] [--ranks N] [--seed N]
 
-    ranks    64 ranks on this machine's cores: the same bytes as one rank, also stopped and resumed
+    ranks    64 ranks on this machine's cores: the same bytes as one rank, also stopped and resumed, and
+             in 16 parts
     points   10^9 points, stopped once and a rank killed once: bounded memory and correct values
     beyond   the last tiles of a plane of more than 2^32 points
 
@@ -31,7 +32,7 @@ from plane import (CHEAP, CORES, COSTLY, MIB, SIDE, Command, Failure, Plane, dem
 # Part 1
 
 def many_ranks(folder, options, chance):
-    """64 ranks, uninterrupted or stopped and resumed, must give the same bytes as one rank."""
+    """64 ranks, uninterrupted or stopped and resumed, and 16 parts must give the same bytes as one rank."""
     # The work grows with the cores: a signal has to arrive during the run.
     plane = Plane(folder, "ranks", 1250 * max(1, CORES // 4), 1270, COSTLY)
     alone = folder / "alone.h5"
@@ -53,9 +54,17 @@ def many_ranks(folder, options, chance):
     resume(plane, 3).must_end_with(0)
     verify(plane)
     demand(digest(plane.file) == digest(alone), "bytes differ after it was stopped and resumed")
-    memory = demand_little_memory(plane, whole, stopped)
-    return (f"{options.ranks} ranks on {CORES} cores, {plane.tiles} tiles; whole, and stopped at {there} "
-            f"tiles and resumed on 3 ranks | 0 bytes differ from one rank's, at most {memory} per rank")
+
+    say("in 16 parts on 1, 2 and 3 ranks, merged")
+    parts = [folder / f"{number}.h5" for number in range(1, 17)]
+    for number, part in enumerate(parts, 1):
+        arguments = ["run", plane.job, "--part", f"{number}/16", "-o", part]
+        Command(folder, arguments, (None, 2, 3)[number % 3]).must_end_with(0)
+    merged = Command(folder, ["merge", *parts, "-o", folder / "merged.h5"]).must_end_with(0)
+    demand(digest(folder / "merged.h5") == digest(alone), "bytes differ in parts")
+    memory = demand_little_memory(plane, whole, stopped, merged)
+    return (f"{options.ranks} ranks on {CORES} cores, {plane.tiles} tiles; whole, stopped at {there} tiles and "
+            f"resumed on 3 ranks, and in 16 parts | 0 bytes differ from one rank's, at most {memory} per rank")
 
 
 # Part 2
