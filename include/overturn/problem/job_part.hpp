@@ -10,6 +10,7 @@
 
 namespace overturn {
 
+/// One of the parts of a job.
 struct JobPart {
     std::int64_t number = 1; ///< 1, 2, ..., count
     std::int64_t count = 1;  ///< at most the number of tiles
