@@ -6,7 +6,7 @@
     ranks    64 ranks on this machine's cores: the same bytes as one rank, also stopped and resumed, and
              in 16 parts
     points   10^9 points, stopped once and a rank killed once: bounded memory and correct values
-    beyond   the last tiles of a plane of more than 2^32 points
+    beyond   the last tiles of a plane of more than 2^32 points, and one of 1000 parts of it
 
 Files are created in a subfolder of FOLDER (or $TMPDIR, or the current folder), which is removed at
 the end; the largest takes 4.4 GB. Requires OVERTURN and MPIEXEC in the environment."""
@@ -131,10 +131,22 @@ def beyond_32_bits(folder, options, chance):
     say("verified; computing parts of it separately")
     demand(digest(plane.file, left_out=places) == before, "more than the last tiles has changed")
     plane.demand_right_tiles([*pending, *chance.sample(beginning.tolist(), min(10, len(beginning)))])
-    memory, of_verify = demand_little_memory(plane, first, last), demand_little_memory(plane, checked)
-    return (f"{plane} ({human(plane.points)}) in {plane.tiles} tiles, the first {len(beginning)} and the "
-            f"last | equal when computed separately, nothing else changed; {memory} per rank, "
+    of_part = one_part(folder, side, chance)
+    memory, of_verify = demand_little_memory(plane, first, last, of_part), demand_little_memory(plane, checked)
+    return (f"{plane} ({human(plane.points)}) in {plane.tiles} tiles, the first {len(beginning)}, the last, and "
+            f"a part of 1000 | equal when computed separately, nothing else changed; {memory} per rank, "
             f"{of_verify} to verify")
+
+
+def one_part(folder, side, chance):
+    """Computes one of 1000 parts of a plane; its file is smaller than its fields."""
+    part = Plane(folder, "part", side, side, CHEAP)
+    run = Command(folder, ["run", part.job, "--part", "500/1000", "-o", part.file], CORES).must_end_with(0)
+    tiles = np.flatnonzero(part.marks()).tolist()
+    demand(len(tiles) in (part.tiles // 1000, part.tiles // 1000 + 1), f"a part has {len(tiles)} tiles")
+    Command(folder, ["verify", part.file]).must_end_with(0).must_say(f"{len(tiles)} of {len(tiles)} tiles are done")
+    part.demand_right_tiles([*chance.sample(tiles, min(10, len(tiles))), tiles[-1]])
+    return run
 
 
 def tiles_at_the_end(plane):
