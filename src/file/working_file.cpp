@@ -79,7 +79,7 @@ bool is_left_over(const std::string& path)
         throw Error(exit_code::output,
                     "\"{}\" exists but is not an overturn {} file. Move it away, or "
                     "choose another name with -o.",
-                    path, path.ends_with(".lock") ? "lock" : "part");
+                    path, path.ends_with(".lock") ? "lock" : "temporary");
     }
     return true;
 }

@@ -1,5 +1,5 @@
-// Temporary files next to a result while overturn runs: a lock, and part files that are renamed
-// when they are complete. Files of other programs with such a name are never reused or removed.
+// Temporary files next to a result while overturn runs: a lock, and OUT.part, which is renamed when
+// it is complete. Files of other programs with such a name are never reused or removed.
 // Also syncing to the disk, and the messages of the operating system.
 #pragma once
 
@@ -33,7 +33,7 @@ void expect_space(const std::string& path, long double needed, std::string_view 
 class PartFile {
 public:
     /// Throws Error if the folder of `path` is missing or not writable, if `path` is a dangling
-    /// link, or if another program's file is called OUT.part. The part file of a killed run is
+    /// link, or if another program's file is called OUT.part. That of a killed run is
     /// replaced. If `path` is a link to a file, the link is kept and its target is replaced.
     explicit PartFile(const std::string& path);
     ~PartFile();

@@ -146,7 +146,7 @@ TEST_F(CreateSpectrumFile, DoesNotRemoveAForeignPart)
 {
     write_bytes(folder / "a.h5.part", "somebody else's");
     EXPECT_THAT(refusal(exit_code::output, [&] { create(); }),
-                HasSubstr("a.h5.part\" exists but is not an overturn part file"));
+                HasSubstr("a.h5.part\" exists but is not an overturn temporary file"));
     EXPECT_EQ(bytes_of(folder / "a.h5.part"), "somebody else's");
     EXPECT_FALSE(std::filesystem::exists(folder / "a.h5"));
 }
