@@ -92,12 +92,17 @@ void add_job_arguments(CLI::App& command, JobSource& job)
         ->allow_extra_args(false);
 }
 
-void add_run_arguments(CLI::App& command, RunOptions& options)
+void add_output(CLI::App& command, RunOptions& options)
 {
-    add_job_arguments(command, options.job);
     add_text(command, "-o,--output", options.output, "OUT.h5",
              fmt::format("Result file; default: JOB{}.h5 in the working directory",
                          options.boundary ? "_boundary" : ""));
+}
+
+void add_run_arguments(CLI::App& command, RunOptions& options)
+{
+    add_job_arguments(command, options.job);
+    add_output(command, options);
     std::vector<std::string_view> kernels{"auto"};
     kernels.insert(kernels.end(), names_of<Kernel>.begin(), names_of<Kernel>.end());
     command
@@ -114,6 +119,18 @@ void add_boundary_arguments(CLI::App& command, RunOptions& options)
 {
     options.boundary = true;
     add_run_arguments(command, options);
+}
+
+constexpr const char* for_programs = "Print JSON for programs";
+
+void add_check_arguments(CLI::App& command, CheckOptions& options)
+{
+    add_job_arguments(command, options.run.job);
+    add_output(command, options.run);
+    command.add_flag("--boundary", options.run.boundary, "Of overturn boundary, not of a spectrum");
+    add_count(command, "--ranks", options.ranks, CLI::Range(1, 1000000),
+              "Number of ranks, each on a core of its own");
+    command.add_flag("--json", options.json, for_programs);
 }
 
 void add_accuracy_arguments(CLI::App& command, AccuracyOptions& options)
@@ -262,7 +279,7 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
     add_text(command, "--set", options.overrides, "scene.KEY=VALUE",
              "Set a key of [scene]; repeatable")
         ->allow_extra_args(false);
-    command.add_flag("--json", options.json, "Print JSON for programs");
+    command.add_flag("--json", options.json, for_programs);
     add_text(command, "-o,--history", options.history, "OUT.h5",
              "Write the motion at --pga or --scale, as overturn history does");
     command
@@ -318,13 +335,19 @@ void add_assess_arguments(CLI::App& command, AssessOptions& options)
     add_text(command, "--set", options.overrides, "scene.KEY=VALUE",
              "Set a key of [scene]; repeatable")
         ->allow_extra_args(false);
-    command.add_flag("--json", options.json, "Print JSON for programs");
+    command.add_flag("--json", options.json, for_programs);
     add_text(command, "--csv", options.csv, "OUT.csv", "Also write a table");
 }
 
 void add_result_file(CLI::App& command, std::string& path)
 {
     command.add_option("FILE", path, "Result file")->required();
+}
+
+void add_info_arguments(CLI::App& command, InfoOptions& options)
+{
+    add_result_file(command, options.path);
+    command.add_flag("--json", options.json, for_programs);
 }
 
 void add_folder(CLI::App& command, std::string& folder)
@@ -372,8 +395,8 @@ Parser::Parser()
     add("boundary",
         "Find the strengths or other values at which verdicts flip, with or without mpirun",
         help::boundary, run, add_boundary_arguments);
-    add("check", "Validate a job; print its points, bytes and time; write nothing", help::check,
-        check, add_job_arguments);
+    add("check", "Validate a job; print its points, bytes, time and memory; write nothing",
+        help::check, check, add_check_arguments);
     add("accuracy", "Measure error and computing time on a sample of a job's plane", help::accuracy,
         accuracy, add_accuracy_arguments);
     add("history", "Compute the motion of one block: angle, velocity and events over time",
@@ -384,7 +407,8 @@ Parser::Parser()
         add_assess_arguments);
     add("keys", "Print the keys of job files: type, range, default and meaning", help::keys, keys,
         add_keys_arguments);
-    add("info", "Print a summary of a result file", help::info, info, add_result_file);
+    add("info", "Print a summary of a result file, and the progress of its run", help::info, info,
+        add_info_arguments);
     add("verify", "Check a result file for damage", help::verify, verify, add_result_file);
     add("doctor", "Print what a bug report should contain about this machine", help::doctor, doctor,
         add_folder);

@@ -48,18 +48,16 @@ namespace {
 void write_not_computed(const StoredField& stored, const Problem& problem, const std::string& path,
                         const BetweenTiles& between_tiles)
 {
-    // Syncing regularly keeps the amount of unsynced data, and thus each wait for the disk, small.
-    constexpr std::int64_t most_in_memory = 1 << 23; // [bytes]
     const Tiling tiling = tiling_of(problem);
     const std::int64_t count =
         count_points(stored_dimensions_of(stored.field, tiling.tile_shape(), stored.crossing));
     const std::int64_t bytes = count * std::int64_t(bytes_per_point(stored.field));
-    const std::int64_t tiles_in_memory = std::max<std::int64_t>(1, most_in_memory / bytes);
+    const std::int64_t tiles_between_syncs = std::max<std::int64_t>(1, most_unsynced_bytes / bytes);
     const FieldValues values = not_computed(stored.field, count); // of a whole chunk
     for (std::int64_t number = 0; number < tiling.size(); ++number) {
         between_tiles();
         write_chunk(stored, tiling[number], values);
-        if ((number + 1) % tiles_in_memory == 0 && !sync(path)) {
+        if ((number + 1) % tiles_between_syncs == 0 && !sync(path)) {
             throw hdf5::Hdf5Error(system_reason(errno));
         }
     }
