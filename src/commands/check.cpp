@@ -49,16 +49,21 @@ void print_space(const DiskSpace& space, const std::string& folder)
 
 void print_time(const Problem& problem, const RunEstimate& estimate)
 {
+    const std::string ranks =
+        estimate.ranks == 1 ? "one rank" : fmt::format("{} ranks", estimate.ranks);
+    const std::string parts =
+        estimate.creation_speed
+            ? fmt::format(": {} to create the file, {} to compute",
+                          human_duration(estimate.creation_seconds),
+                          human_duration(estimate.farm.seconds))
+            : ", without the creation of the file, since the speed of the disk is unknown";
     print_row("time",
-              fmt::format("about {} on {} {} with kernel {}; {:.3g} core-hours, {:.0f} % of them "
-                          "on tiles",
-                          human_duration(estimate.seconds()),
-                          estimate.ranks == 1 ? "one" : fmt::to_string(estimate.ranks),
-                          noun_of(estimate.ranks, "ranks"), name_of(estimate.kernel),
-                          estimate.core_hours(), 100 * estimate.tile_share()));
-    if (!estimate.creation_speed) {
-        print_row("", "without that to create the file, whose speed is unknown there");
-    }
+              fmt::format("about {} on {} with kernel {}{}", human_duration(estimate.seconds()),
+                          ranks, name_of(estimate.kernel), parts));
+    const double hours = estimate.core_hours();
+    print_row("cost", fmt::format("{} core-hours, {:.0f} % of them spent on tiles",
+                                  hours < 999.5 ? fmt::format("{:.3g}", hours) : human_count(hours),
+                                  100 * estimate.tile_share()));
     print_row("memory", fmt::format("about {} per rank, {} on rank 0", human_bytes(estimate.memory),
                                     human_bytes(estimate.memory_of_rank_0)));
     const auto tiles_seconds = [&](const Problem& other) {

@@ -146,7 +146,7 @@ SimulatedFarm simulate_farm(const FarmCosts& costs, int ranks, std::int64_t tile
 
 SimulatedFarm simulate_farm(const FarmCosts& costs, int ranks, std::int64_t tiles)
 {
-    const std::int64_t most = std::max(std::int64_t(4'000'000), std::int64_t(256) * ranks);
+    const auto most = std::clamp<std::int64_t>(std::int64_t(256) * ranks, 4'000'000, 32'000'000);
     const std::int64_t in_one = (tiles + most - 1) / most;
     const FarmCosts of_one{.answer = costs.answer,
                            .tile = costs.tile * double(in_one),

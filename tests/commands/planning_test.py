@@ -87,7 +87,7 @@ class Planning(Scratch):
                 self.assertIsNone(plan[name], name)
             self.assertGreater(plan["seconds"], 0)
         self.assert_exit(self.overturn("check", "small.toml", "-o", "/proc/out.h5"), 0,
-                         "space unknown in /proc; quota unknown", "without that to create the file")
+                         "space unknown in /proc; quota unknown", "without the creation of the file")
 
     def test_quota_is_that_of_the_user_or_group_that_has_less_left(self):
         def plan(**quotas):
