@@ -41,26 +41,18 @@ std::string tile_text(const Shape& shape)
 }
 
 /// Of a file that lacks tiles.
-std::string progress_line(const FileProgress& progress, const std::optional<LastRun>& run)
+std::string progress_line(const FileProgress& file, const std::optional<LastRun>& run)
 {
-    if (progress.state == RunState::stopped) {
+    if (file.state == RunState::stopped) {
         return "no run writes this file";
     }
-    const std::string age =
-        run ? fmt::format("the last report of a run is {} old", human_duration(run->age)) : "";
-    if (progress.state == RunState::unknown) {
-        return run ? "unknown whether a run writes this file: " + age
-                   : "unknown whether a run writes this file: there is no sidecar of a run";
+    if (file.state == RunState::unknown) {
+        return "unknown whether a run writes this file: " +
+               (run ? fmt::format("the last report of a run is {} old", human_duration(run->age))
+                    : "there is no report of a run");
     }
-    std::string text =
-        fmt::format("a run on {} {} writes this file", run->ranks, noun_of(run->ranks, "ranks"));
-    if (run->rate) {
-        text += fmt::format(", {} {}/s", human_count(*run->rate), progress.items.name);
-    }
-    if (progress.seconds_left) {
-        text += fmt::format(", {} left", human_duration(*progress.seconds_left));
-    }
-    return text + "; " + age;
+    return fmt::format("a run on {} {} writes this file: {}", run->ranks,
+                       noun_of(run->ranks, "ranks"), progress_text(file.progress));
 }
 
 /// Of a spectrum or a boundary.

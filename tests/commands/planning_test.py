@@ -165,7 +165,10 @@ class Watching(Scratch):
                              ["running", LONG_TILES, "points", 448 * 448 * 2, 1])
             self.assertEqual(found["items_done"], int(448 * 448 * 2 * found["tiles_done"] / LONG_TILES))
             self.assertLess(found["refreshed_seconds_ago"], PATIENCE)
-            self.assert_exit(self.overturn("info", "long.h5"), 0, "a run on 1 rank writes this file")
+            # Of this moment, whenever the sidecar was written.
+            left = (found["items_all"] - found["items_done"]) / found["items_per_second"]
+            self.assertLess(abs(found["seconds_left"] / left - 1), 1e-14)
+            self.assert_exit(self.overturn("info", "long.h5"), 0, "a run on 1 rank writes this file: ", " points/s, ", " left")
             run.send_signal(signal.SIGUSR1)
             run.communicate(timeout=PATIENCE)
         found = self.info()
@@ -187,11 +190,16 @@ class Watching(Scratch):
         before = datetime.datetime.now(datetime.timezone.utc) - datetime.timedelta(seconds=100)
         text = (self.folder / "long.h5.json").read_text()
         (self.folder / "long.h5.json").write_text(
-            text.replace(found["refreshed"], before.strftime("%Y-%m-%dT%H:%M:%SZ")))
+            text.replace(found["refreshed"], before.strftime("%Y-%m-%dT%H:%M:%S.000Z")))
         found = self.info()
         self.assertEqual([found["state"], found["seconds_left"]], ["unknown", None])
         self.assertGreaterEqual(found["refreshed_seconds_ago"], 100)
         self.assert_exit(self.overturn("info", "long.h5"), 0, "the last report of a run is 1 min 4")
+        odd = '{\n  "program_version": "3", "state": "running", "refreshed": "%s", "items_before": %s}'
+        for broken in (odd % ("9999-12-31T23:59:59.999Z", 0), odd % ("2000-01-01T00:00:00.000Z", -(2**63)),
+                       odd % ("today", 1e300)):
+            (self.folder / "long.h5.json").write_text(broken)
+            self.assertEqual(self.info()["state"], "unknown")
         for broken in ("", "{", '{\n  "program_version": []}', '{\n  "program_version": "3", "state": 7}'):
             (self.folder / "long.h5.json").write_text(broken)
             found = self.info()

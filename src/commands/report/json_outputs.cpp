@@ -318,7 +318,7 @@ std::string json_of(const StoredResult& stored, const std::optional<LastRun>& ru
         return text_of(members);
     }
     const TilesSummary& tiles = stored.tiles();
-    const FileProgress progress = progress_of(stored, run);
+    const auto [state, progress, elapsed, seconds_left] = progress_of(stored, run);
     Json& axes = members["axes"] = Json::array();
     for (const AxisSummary& axis : tiles.axes) {
         Json& each = axes.emplace_back();
@@ -334,13 +334,13 @@ std::string json_of(const StoredResult& stored, const std::optional<LastRun>& ru
     }
     members["tiles"] = tiles.tiles;
     members["tiles_done"] = tiles.tiles_done;
-    members["items"] = progress.items.name;
-    members["items_all"] = progress.items.count;
-    members["items_done"] = progress.items_done;
-    members["state"] = name_of(progress.state);
-    members["items_per_second"] = run ? if_known(run->rate) : Json();
-    members["elapsed_seconds"] = run ? Json(run->elapsed) : Json();
-    members["seconds_left"] = if_known(progress.seconds_left);
+    members["items"] = progress.items;
+    members["items_all"] = progress.all;
+    members["items_done"] = progress.done;
+    members["state"] = name_of(state);
+    members["items_per_second"] = if_known(progress.rate());
+    members["elapsed_seconds"] = if_known(elapsed);
+    members["seconds_left"] = if_known(seconds_left);
     members["refreshed_seconds_ago"] = run ? Json(run->age) : Json();
     members["ranks"] = run ? Json(run->ranks) : Json();
     return text_of(members);

@@ -22,7 +22,7 @@ constexpr double longest_log_interval = 600;
 
 std::optional<double> ProgressState::rate() const
 {
-    const double computed = double(done - before);
+    const double computed = double(done) - double(before);
     return computed > 0 && seconds > 0 ? std::optional(computed / seconds) : std::nullopt;
 }
 

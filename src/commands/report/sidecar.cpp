@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <ctime>
 #include <exception>
 #include <filesystem>
@@ -24,12 +25,14 @@ constexpr double update_interval = 10; // [s]
 /// A run that is this silent may be dead: it updates its sidecar three times as often.
 constexpr double longest_silence = 30; // [s]
 
-constexpr const char* date_format = "%Y-%m-%dT%H:%M:%SZ";
+constexpr const char* date_format = "%Y-%m-%dT%H:%M:%S";
 
+/// With milliseconds.
 std::string date_of(Clock::time_point time)
 {
-    const auto second = std::chrono::time_point_cast<std::chrono::seconds>(time);
-    return fmt::format(fmt::runtime(fmt::format("{{:{}}}", date_format)), fmt::gmtime(second));
+    const auto second = std::chrono::floor<std::chrono::seconds>(time);
+    const auto rest = std::chrono::floor<std::chrono::milliseconds>(time - second);
+    return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(second), rest.count());
 }
 
 /// The date in UTC; nullopt if it is none.
@@ -37,8 +40,14 @@ std::optional<Clock::time_point> time_of(const std::string& date)
 {
     std::tm parts = {};
     const char* const end = strptime(date.c_str(), date_format, &parts);
-    return end != nullptr && *end == '\0' ? std::optional(Clock::from_time_t(timegm(&parts)))
-                                          : std::nullopt;
+    int milliseconds = 0;
+    constexpr int year_1970 = 70;
+    constexpr int year_2200 = 300; // nanoseconds since 1970 fit into 64 bits
+    if (end == nullptr || std::sscanf(end, ".%3dZ", &milliseconds) != 1 ||
+        parts.tm_year < year_1970 || parts.tm_year > year_2200) {
+        return {};
+    }
+    return Clock::from_time_t(timegm(&parts)) + std::chrono::milliseconds(milliseconds);
 }
 
 std::optional<double> number_in(const Json& json, const char* name)
@@ -95,6 +104,7 @@ std::string Sidecar::text(RunState state, const FarmReport* report) const
     sidecar["start"] = date_of(start_);
     sidecar["refreshed"] = date_of(now);
     sidecar["wall_seconds"] = std::chrono::duration<double>(now - start_).count();
+    sidecar["computing_seconds"] = progress_.seconds;
     sidecar["items"] = progress_.items;
     sidecar["items_all"] = progress_.all;
     sidecar["items_before"] = progress_.before;
@@ -139,14 +149,20 @@ std::optional<LastRun> last_run_of(const std::string& path)
     if (!written || !state) {
         return {};
     }
+    const auto count = [&](const char* name) {
+        const auto found = json.find(name);
+        return found != json.end() && found->is_number_integer() ? found->get<std::int64_t>() : 0;
+    };
     // The clock of the host that writes may be ahead of this one.
     const double age = std::chrono::duration<double>(Clock::now() - *written).count();
     return LastRun{.state = *state,
                    .age = std::max(age, 0.0),
                    .elapsed = number_in(json, "wall_seconds").value_or(0),
-                   .rate = number_in(json, "items_per_second"),
-                   .seconds_left = number_in(json, "seconds_left"),
-                   .ranks = std::int64_t(number_in(json, "rank_count").value_or(0))};
+                   .ranks = count("rank_count"),
+                   .progress = {.before = count("items_before"),
+                                .done = count("items_done"),
+                                .all = count("items_all"),
+                                .seconds = number_in(json, "computing_seconds").value_or(0)}};
 }
 
 FileProgress progress_of(const StoredResult& stored, const std::optional<LastRun>& run)
@@ -159,22 +175,25 @@ FileProgress progress_of(const StoredResult& stored, const std::optional<LastRun
             items.count *= axis.size;
         }
     }
-    FileProgress progress{.items = items,
-                          .items_done = items.in(tiles.tiles_done, tiles.tiles),
-                          .state = RunState::unknown,
-                          .seconds_left = {}};
+    FileProgress found{.state = RunState::unknown,
+                       .progress = run ? run->progress : ProgressState(),
+                       .elapsed = run ? std::optional(run->elapsed) : std::nullopt,
+                       .seconds_left = {}};
+    found.progress.items = items.name;
+    found.progress.all = items.count;
+    found.progress.done = items.in(tiles.tiles_done, tiles.tiles);
     if (tiles.tiles_done == tiles.tiles) {
-        progress.state = RunState::finished;
-        progress.seconds_left = 0;
+        found.state = RunState::finished;
+        found.seconds_left = 0;
     } else if (run && run->state != RunState::running) {
-        progress.state = RunState::stopped; // if it says finished, the file is another one
+        found.state = RunState::stopped; // if it says finished, the file is another one
     } else if (run && run->age < longest_silence) {
-        progress.state = RunState::running;
-        if (run->seconds_left) {
-            progress.seconds_left = std::max(*run->seconds_left - run->age, 0.0);
-        }
+        found.state = RunState::running;
+        found.progress.seconds += run->age;
+        *found.elapsed += run->age;
+        found.seconds_left = found.progress.seconds_left();
     }
-    return progress;
+    return found;
 }
 
 } // namespace overturn

@@ -53,9 +53,8 @@ struct LastRun {
     RunState state = RunState::unknown; ///< when it was written
     double age = 0;                     ///< since then [s]
     double elapsed = 0;                 ///< from the start of the run to then [s]
-    std::optional<double> rate;         ///< items per second
-    std::optional<double> seconds_left; ///< from then on
     std::int64_t ranks = 0;
+    ProgressState progress; ///< then
 };
 
 /// nullopt if the result file of this path has no sidecar, or only one without progress.
@@ -63,10 +62,10 @@ std::optional<LastRun> last_run_of(const std::string& path);
 
 /// How far a spectrum or a boundary is, from its file and the last run.
 struct FileProgress {
-    Items items;
-    std::int64_t items_done;
     RunState state;
-    std::optional<double> seconds_left; ///< from now on
+    ProgressState progress;             ///< by the tiles in the file, now if a run writes it
+    std::optional<double> elapsed;      ///< since the start of the last run, or to its end [s]
+    std::optional<double> seconds_left; ///< nullopt if no run writes it
 };
 FileProgress progress_of(const StoredResult& stored, const std::optional<LastRun>& run);
 
