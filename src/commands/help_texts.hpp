@@ -169,7 +169,8 @@ inline constexpr const char* files = R"(Relative to the folder of the program:
   ../share/doc/overturn         documentation: job files, result files, accuracy
   ../include/overturn           the physics for C++ programs: find_package(overturn)
 
-OUT.h5.json, next to a result file OUT.h5, contains the hosts, times and libraries of the run.)";
+OUT.h5.json, next to a result file OUT.h5, contains the hosts, times and libraries of the run, and
+while it lasts its progress.)";
 
 inline constexpr const char* tools =
     R"(The examples use the names in the source folder: tools/plot_history is overturn-plot-history,

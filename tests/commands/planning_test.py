@@ -13,6 +13,9 @@ JOB_TO_PLAN = JOB.format(columns=70, rows=66, restitutions="[0.7]", tolerance="1
 FEW_LINES = ("--set=plane.frequency={ first = 4, last = 8, count = 3 }", "--set=plane.amplitude.count=5")
 BYTES = {"region": 1, "angle": 8, "velocity": 8, "margin": 8, "impacts": 2, "status": 1}
 POINTS = 70 * 66
+INFO = {"file", "bytes", "contains", "title", "program_version", "program_commit", "axes", "fields", "tiles",
+        "tiles_done", "items", "items_all", "items_done", "state", "items_per_second", "elapsed_seconds", "seconds_left",
+        "refreshed_seconds_ago", "ranks"}  # fmt: skip
 NUMBERS = {"items_all", "tiles", "file_bytes", "ranks", "seconds", "core_hours", "tile_share", "start_seconds",
            "seconds_per_tile", "tiles_sampled", "memory_bytes", "memory_bytes_of_rank_0"}  # fmt: skip
 NUMBERS_OR_NULL = {"free_bytes", "quota_bytes", "quota_used_bytes", "creation_seconds", "integrated_share"}
@@ -161,6 +164,7 @@ class Watching(Scratch):
         with self.start_slow_run() as run:
             self.wait_for_tiles(run)
             found = self.info()
+            self.assertEqual(set(found), INFO)
             self.assertEqual([found["state"], found["tiles"], found["items"], found["items_all"], found["ranks"]],
                              ["running", LONG_TILES, "points", 448 * 448 * 2, 1])
             self.assertEqual(found["items_done"], int(448 * 448 * 2 * found["tiles_done"] / LONG_TILES))
