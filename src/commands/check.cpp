@@ -26,7 +26,7 @@ void print_size(const Job& job)
     print_row(items.name, fmt::format("{} in {} {}", human_count(double(items.count)),
                                       tiling.size(), noun_of(tiling.size(), "tiles")));
     for (const FieldSize& field : field_sizes(problem)) {
-        print_row("field", fmt::format("{}, {}, {} {} each", name_of(field.field),
+        print_row("field", fmt::format("{}, {}, {} {} per value", name_of(field.field),
                                        human_bytes(field.bytes()), field.bytes_per_value,
                                        noun_of(field.bytes_per_value, "bytes")));
     }
@@ -111,7 +111,9 @@ int check(const CheckOptions& options)
     const double reading =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const std::string path = std::filesystem::absolute(output_path(options.run)).string();
-    const std::string folder = std::filesystem::path(path).parent_path().string();
+    std::error_code none; // of links
+    const auto file = std::filesystem::weakly_canonical(path, none);
+    const std::string folder = (none ? std::filesystem::path(path) : file).parent_path().string();
     const DiskSpace space = space_in(folder);
     std::vector<std::string> warnings = warnings_on(job);
     const auto add = shortage(double(result_bytes(job)), space, folder);

@@ -52,8 +52,8 @@ struct RunEstimate {
     double seconds() const { return start_seconds + creation_seconds + farm.seconds; }
     double core_hours() const { return ranks * seconds() / 3600; }
 
-    /// The share of the core-hours in which tiles are computed [1].
-    double tile_share() const { return sample.mean * double(tiles) / (ranks * seconds()); }
+    /// The share of the core-hours in which tiles are computed and written [1].
+    double tile_share() const { return farm.efficiency * farm.seconds / seconds(); }
 };
 
 /// reading_seconds: that it took to read the job. folder: of the file, in which nothing is left; it

@@ -21,7 +21,7 @@ Estimates the time and the memory of jobs of every kind by overturn check, then 
 Prints the estimated and the measured time, from the start of the command to its exit, the share of it in which
 the ranks had a processor, which other programs reduce, and by which factor the time left was wrong at worst that
 a run printed while 5 % to 90 % of its points were done; then the estimated and the measured memory of the largest
-rank. Takes about ten minutes. Do not run other programs meanwhile."""
+rank. Takes about five minutes. Do not run other programs meanwhile."""
 
 PULSE, RECORD, SLIDING, LIST = (SOURCE / "jobs" / f"{name}.toml" for name in
                                 ("figure_07a", "synthetic", "sliding", "statues"))
@@ -42,19 +42,19 @@ def record(sizes, scales):
 TAYLOR, RESOLVED, FILLED = 'numerics.method="taylor"', "numerics.resolve=true", "numerics.fill=true"
 REGION = 'output.fields=["region"]'
 CASES = {  # the command, the job, and settings
-    "pulse, rk45": ("run", PULSE, plane(4096)),
-    "pulse, taylor": ("run", PULSE, [TAYLOR, *plane(6144)]),
+    "pulse, rk45": ("run", PULSE, plane(3072)),
+    "pulse, taylor": ("run", PULSE, [TAYLOR, *plane(4096)]),
     "pulse, all fields": ("run", PULSE, ['output.fields=["region", "margin", "error", "peak", "fall_time", "normal"]',
-                                         *plane(1536)]),
-    "list under pulses": ("run", LIST, counts(("pulse_period", 910), ("pga", 1190))),
-    "filled": ("run", PULSE, [REGION, FILLED, *plane(24576)]),
+                                         *plane(1024)]),
+    "list under pulses": ("run", LIST, counts(("pulse_period", 640), ("pga", 840))),
+    "filled": ("run", PULSE, [REGION, FILLED, *plane(16384)]),
     "resolved": ("run", PULSE, [REGION, RESOLVED, *plane(2048)]),
-    "boundary": ("boundary", PULSE, [*counts(("frequency", 1200), ("amplitude", 200))]),
-    "record": ("run", RECORD, record(1024, 1024)),
-    "record, resolved": ("run", RECORD, [RESOLVED, *counts(("size", 480), ("scale", 480))]),
-    "boundary under a record": ("boundary", RECORD, counts(("size", 160))),
-    "sliding": ("run", SLIDING, counts(("pulse_period", 480), ("pga", 480))),
-    "sliding under a record": ("run", RECORD, ["plane.friction=0.4", *record(128, 128)]),
+    "boundary": ("boundary", PULSE, [*counts(("frequency", 480), ("amplitude", 200))]),
+    "record": ("run", RECORD, record(640, 640)),
+    "record, resolved": ("run", RECORD, [RESOLVED, *counts(("size", 320), ("scale", 320))]),
+    "boundary under a record": ("boundary", RECORD, counts(("size", 80))),
+    "sliding": ("run", SLIDING, counts(("pulse_period", 400), ("pga", 400))),
+    "sliding under a record": ("run", RECORD, ["plane.friction=0.4", *record(112, 112)]),
 }
 
 
