@@ -101,7 +101,7 @@ namespace {
 
 /// Measured with Open MPI 4.1 on one host, from the start of the command to its end [s].
 constexpr double seconds_alone = 0.03;
-constexpr double seconds_under_mpirun = 0.5;
+constexpr double seconds_under_mpirun = 0.2;
 
 constexpr double answer_seconds = 2e-6; // 0.5 to 1.7 us were measured on one host
 
@@ -109,7 +109,7 @@ constexpr double answer_seconds = 2e-6; // 0.5 to 1.7 us were measured on one ho
 double write_seconds(const Problem& problem)
 {
     constexpr double call = 5e-6;
-    constexpr double bytes_per_second = 2e9;
+    constexpr double bytes_per_second = 5e9;
     double bytes = 0;
     for (const Field field : problem.fields) {
         bytes += double(bytes_per_point(field));

@@ -100,7 +100,7 @@ DiskSpace space_in(const std::string& folder)
 std::optional<double> speed_of_creation_in(const std::string& folder, double bytes)
 {
     using Clock = std::chrono::steady_clock;
-    constexpr double longest = 0.3; // [s]
+    constexpr std::chrono::milliseconds longest{500};
     if (!(bytes >= 1)) {
         return {};
     }
@@ -109,20 +109,23 @@ std::optional<double> speed_of_creation_in(const std::string& folder, double byt
         return {};
     }
     const std::vector<char> block(std::size_t(std::min(bytes, double(most_unsynced_bytes))), 'x');
+    std::vector<double> seconds; // of each block
     const auto start = Clock::now();
-    double written = 0;
-    double seconds = 0;
+    auto end = start;
     do {
+        const auto begin = end;
         if (write(descriptor, block.data(), block.size()) != ssize_t(block.size()) ||
             fsync(descriptor) != 0) {
             close(descriptor);
             return {};
         }
-        written += double(block.size());
-        seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    } while (written < bytes && seconds < longest);
+        end = Clock::now();
+        seconds.push_back(std::chrono::duration<double>(end - begin).count());
+    } while (double(seconds.size() + 1) * double(block.size()) <= bytes && end - start < longest);
     close(descriptor);
-    return written / seconds;
+    // The median: a sync may have to wait for what others have written.
+    std::ranges::sort(seconds);
+    return double(block.size()) / seconds[seconds.size() / 2];
 }
 
 } // namespace overturn
