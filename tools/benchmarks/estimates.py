@@ -18,10 +18,10 @@ from overturn.installation import mpi_environment
 
 EXPLANATION = """\
 Estimates the time and the memory of jobs of every kind by overturn check, then runs them, on one rank and on two.
-Prints the estimated and the measured time, from the start of the command to its exit, the share of it in which
-the ranks had a processor, which other programs reduce, and by which factor the time left was wrong at worst that
-a run printed while 5 % to 90 % of its points were done; then the estimated and the measured memory of the largest
-rank. Takes about five minutes. Do not run other programs meanwhile."""
+Prints the estimated and the measured time, from the start of the command to its exit, and the processor time of a
+rank, which is shorter if other programs run; by which factor the time left was wrong at worst that a run printed
+while 5 % to 90 % of its points were done; then the estimated and the measured memory of the largest rank. Takes
+about five minutes. Do not run other programs meanwhile."""
 
 PULSE, RECORD, SLIDING, LIST = (SOURCE / "jobs" / f"{name}.toml" for name in
                                 ("figure_07a", "synthetic", "sliding", "statues"))
@@ -141,7 +141,7 @@ def compared(overturn, case, options, ranks, folder):
 
 def run(options):
     overturn = program(options)
-    print(f"{'':26}ranks  estimated   measured  ratio  processor  time left      memory: estimated, measured",
+    print(f"{'':26}ranks  estimated   measured  ratio  processor  ratio  time left  memory: estimated, measured",
           flush=True)
     results = []
     with tempfile.TemporaryDirectory() as name:
@@ -149,11 +149,11 @@ def run(options):
             for ranks in options.ranks:
                 found = compared(overturn, case, options, ranks, pathlib.Path(name))
                 results.append(found)
-                factor = found["time_left_factor"]
-                print(f"{case:26}{ranks:5}{found['estimated_seconds']:10.2f} s{found['seconds']:9.2f} s"
-                      f"{found['estimated_seconds'] / found['seconds']:7.2f}"
-                      f"{100 * found['processor_seconds'] / (ranks * found['seconds']):9.0f} %"
-                      f"{f'{factor:.2f}' if factor else '-':>11}"
+                estimated, seconds, factor = (found[name] for name in ("estimated_seconds", "seconds",
+                                                                       "time_left_factor"))
+                processor = found["processor_seconds"] / ranks
+                print(f"{case:26}{ranks:5}{estimated:10.2f} s{seconds:9.2f} s{estimated / seconds:7.2f}"
+                      f"{processor:9.2f} s{estimated / processor:7.2f}{f'{factor:.2f}' if factor else '-':>11}"
                       f"{found['estimated_memory'] / 1e6:17.0f} MB{found['memory'] / 1e6:9.0f} MB", flush=True)
     ratios = [each["estimated_seconds"] / each["seconds"] for each in results]
     print(f"estimated times are {min(ratios):.2f} to {max(ratios):.2f} times the measured ones")
