@@ -108,12 +108,17 @@ JobPart part_named(const std::string& text)
     return part;
 }
 
-void add_run_arguments(CLI::App& command, RunOptions& options)
+void add_output(CLI::App& command, RunOptions& options)
 {
-    add_job_arguments(command, options.job);
     add_text(command, "-o,--output", options.output, "OUT.h5",
              fmt::format("Result file; default: JOB{}.h5 in the working directory",
                          options.boundary ? "_boundary" : ""));
+}
+
+void add_run_arguments(CLI::App& command, RunOptions& options)
+{
+    add_job_arguments(command, options.job);
+    add_output(command, options);
     command
         .add_option_function<std::string>(
             "--part", [&options](const std::string& text) { options.part = part_named(text); },
@@ -143,6 +148,18 @@ void add_merge_arguments(CLI::App& command, MergeOptions& options)
 {
     command.add_option("PART", options.parts, "Result files of all parts of a job")->required();
     add_text(command, "-o,--output", options.output, "OUT.h5", "Result file")->required();
+}
+
+constexpr const char* for_programs = "Print JSON for programs";
+
+void add_check_arguments(CLI::App& command, CheckOptions& options)
+{
+    add_job_arguments(command, options.run.job);
+    add_output(command, options.run);
+    command.add_flag("--boundary", options.run.boundary, "Of overturn boundary, not of a spectrum");
+    add_count(command, "--ranks", options.ranks, CLI::Range(1, 1000000),
+              "Number of ranks, each on a core of its own");
+    command.add_flag("--json", options.json, for_programs);
 }
 
 void add_accuracy_arguments(CLI::App& command, AccuracyOptions& options)
@@ -291,7 +308,7 @@ void add_topple_arguments(CLI::App& command, ToppleOptions& options)
     add_text(command, "--set", options.overrides, "scene.KEY=VALUE",
              "Set a key of [scene]; repeatable")
         ->allow_extra_args(false);
-    command.add_flag("--json", options.json, "Print JSON for programs");
+    command.add_flag("--json", options.json, for_programs);
     add_text(command, "-o,--history", options.history, "OUT.h5",
              "Write the motion at --pga or --scale, as overturn history does");
     command
@@ -347,13 +364,19 @@ void add_assess_arguments(CLI::App& command, AssessOptions& options)
     add_text(command, "--set", options.overrides, "scene.KEY=VALUE",
              "Set a key of [scene]; repeatable")
         ->allow_extra_args(false);
-    command.add_flag("--json", options.json, "Print JSON for programs");
+    command.add_flag("--json", options.json, for_programs);
     add_text(command, "--csv", options.csv, "OUT.csv", "Also write a table");
 }
 
 void add_result_file(CLI::App& command, std::string& path)
 {
     command.add_option("FILE", path, "Result file")->required();
+}
+
+void add_info_arguments(CLI::App& command, InfoOptions& options)
+{
+    add_result_file(command, options.path);
+    command.add_flag("--json", options.json, for_programs);
 }
 
 void add_folder(CLI::App& command, std::string& folder)
@@ -403,8 +426,8 @@ Parser::Parser()
         help::boundary, run, add_boundary_arguments);
     add("merge", "Join the files of all parts of a job, computed by run --part, to one",
         help::merge, merge, add_merge_arguments);
-    add("check", "Validate a job; print its points, bytes and time; write nothing", help::check,
-        check, add_job_arguments);
+    add("check", "Validate a job; print its points, bytes, time and memory; write nothing",
+        help::check, check, add_check_arguments);
     add("accuracy", "Measure error and computing time on a sample of a job's plane", help::accuracy,
         accuracy, add_accuracy_arguments);
     add("history", "Compute the motion of one block: angle, velocity and events over time",
@@ -415,7 +438,8 @@ Parser::Parser()
         add_assess_arguments);
     add("keys", "Print the keys of job files: type, range, default and meaning", help::keys, keys,
         add_keys_arguments);
-    add("info", "Print a summary of a result file", help::info, info, add_result_file);
+    add("info", "Print a summary of a result file, and the progress of its run", help::info, info,
+        add_info_arguments);
     add("verify", "Check a result file for damage", help::verify, verify, add_result_file);
     add("doctor", "Print what a bug report should contain about this machine", help::doctor, doctor,
         add_folder);

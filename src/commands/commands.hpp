@@ -36,8 +36,13 @@ struct MergeOptions {
 };
 int merge(const MergeOptions& options);
 
-/// Prints what a job would compute and store, and its estimated time. Writes nothing.
-int check(const JobSource& source);
+/// Prints what a job would compute and store, and what its run would take. Writes nothing.
+struct CheckOptions {
+    RunOptions run;
+    int ranks = 1;
+    bool json = false;
+};
+int check(const CheckOptions& options);
 
 /// Measures error and computing time on a sample of a job's plane, on one core.
 struct AccuracyOptions {
@@ -118,8 +123,13 @@ struct KeysOptions {
 };
 int keys(const KeysOptions& options);
 
-/// Prints a summary of a result file, and how to resume it if it is unfinished.
-int info(const std::string& path);
+/// Prints a summary of a result file, its progress if a run writes it, and how to resume it if it
+/// is unfinished.
+struct InfoOptions {
+    std::string path;
+    bool json = false;
+};
+int info(const InfoOptions& options);
 
 /// Checks the coordinates and all tiles of a result file, and reports what is damaged.
 int verify(const std::string& path);

@@ -104,11 +104,15 @@ so that narrower ranges may be missed, and ends of ranges are refined to 1e-4; w
 of overturn topple, which gives all ranges of an object. The note of an object that does not topple
 has the nearest toppling strengths, if one is less or up to 10 % more.)";
 
-inline constexpr const char* check = R"(Example:
+inline constexpr const char* check = R"(Examples:
   overturn check jobs/smoke.toml --set 'plane.slenderness={ values = [0.2, 0.3] }'
+  overturn check jobs/figure_07a.toml --ranks 256 -o /scratch/figure_07a.h5
 
 Prints the motion, the axes, alpha, R, p and r_max of the block, the friction coefficients that
-lifting and impacts need, points, bytes and the estimated time of overturn run.)";
+lifting and impacts need; the size of the file and of its fields, the free space and the quota in
+its folder; and the core-hours, time and memory of overturn run on this number of ranks, estimated
+from tiles that are computed for some seconds. The speed of the disk is measured on a file without a
+name, which vanishes.)";
 
 inline constexpr const char* keys = R"(Examples:
   overturn keys
@@ -149,8 +153,13 @@ rad and 1/p; q is in rad2. OUT.h5 contains angle, velocity and acceleration [rad
 ground acceleration over g as functions of tau = p t. The motion is integrated as accurately as
 doubles allow, regardless of [numerics].)";
 
-inline constexpr const char* info = R"(Example:
-  overturn info smoke.h5)";
+inline constexpr const char* info = R"(Examples:
+  overturn info smoke.h5
+  overturn info smoke.h5 --json
+
+Prints what a result file contains, how many tiles are done, and whether a run writes it, with its
+rate and the time left. A run reports these every 10 s in OUT.h5.json. If the last report is older
+than 30 s, the run may be dead, and its state is unknown.)";
 
 inline constexpr const char* verify = R"(Example:
   overturn verify smoke.h5
@@ -177,7 +186,8 @@ inline constexpr const char* files = R"(Relative to the folder of the program:
   ../share/doc/overturn         documentation: job files, result files, accuracy
   ../include/overturn           the physics for C++ programs: find_package(overturn)
 
-OUT.h5.json, next to a result file OUT.h5, contains the hosts, times and libraries of the run.)";
+OUT.h5.json, next to a result file OUT.h5, contains the hosts, times and libraries of the run, and
+while it lasts its progress.)";
 
 inline constexpr const char* tools =
     R"(The examples use the names in the source folder: tools/plot_history is overturn-plot-history,

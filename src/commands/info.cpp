@@ -1,7 +1,9 @@
 #include "commands.hpp"
 #include "guarded_reading.hpp"
+#include "report/json_outputs.hpp"
 #include "report/print.hpp"
 #include "report/result_remarks.hpp"
+#include "report/sidecar.hpp"
 
 #include "overturn/file/stored_result.hpp"
 #include "overturn/text/quoting.hpp"
@@ -38,6 +40,21 @@ std::string tile_text(const Shape& shape)
     return first == shape.end() ? "1" : fmt::format("{}", fmt::join(first, shape.end(), " x "));
 }
 
+/// Of a file that lacks tiles.
+std::string progress_line(const FileProgress& file, const std::optional<LastRun>& run)
+{
+    if (file.state == RunState::stopped) {
+        return "no run writes this file";
+    }
+    if (file.state == RunState::unknown) {
+        return "unknown whether a run writes this file: " +
+               (run ? fmt::format("the last report of a run is {} old", human_duration(run->age))
+                    : "there is no report of a run");
+    }
+    return fmt::format("a run on {} {} writes this file: {}", run->ranks,
+                       noun_of(run->ranks, "ranks"), progress_text(file.progress));
+}
+
 /// Of a spectrum or a boundary.
 void print_axes_and_tiles(const StoredResult& stored)
 {
@@ -68,6 +85,8 @@ void print_axes_and_tiles(const StoredResult& stored)
                               tiles.part->count, tiles.tiles, tiles.tiles_of_job));
     }
     if (tiles.tiles_done < tiles.tiles) {
+        const auto run = last_run_of(stored.path());
+        print_row("progress", progress_line(progress_of(stored, run), run));
         print_row("unfinished", "Resume with " + command_to_complete(stored));
     } else if (tiles.part) {
         print_row("unfinished", "Join all parts with overturn merge");
@@ -76,11 +95,15 @@ void print_axes_and_tiles(const StoredResult& stored)
 
 } // namespace
 
-int info(const std::string& path)
+int info(const InfoOptions& options)
 {
-    const GuardedReading guarded(path);
-    const StoredResult stored(path);
-    print_origin(path, stored.origin());
+    const GuardedReading guarded(options.path);
+    const StoredResult stored(options.path);
+    if (options.json) {
+        fmt::print("{}", json_of(stored, last_run_of(options.path)));
+        return exit_code::complete;
+    }
+    print_origin(options.path, stored.origin());
     if (stored.origin().has_tiles()) {
         print_axes_and_tiles(stored);
     }

@@ -5,10 +5,10 @@
 #include "kernel_choice.hpp"
 #include "prepare_output.hpp"
 #include "report/job.hpp"
-#include "report/json_outputs.hpp"
 #include "report/print.hpp"
 #include "report/progress.hpp"
 #include "report/result_remarks.hpp"
+#include "report/sidecar.hpp"
 
 #include "overturn/farm/farm.hpp"
 #include "overturn/farm/stop_signals.hpp"
@@ -46,10 +46,7 @@ struct Task {
     const Kernel kernel = kernel_called(options.kernel);
 
     bool is_rank_0() const { return session.rank() == 0; }
-    std::int64_t items_in(std::int64_t tiles) const
-    {
-        return std::int64_t(double(items.count) * (double(tiles) / double(tiling.size())));
-    }
+    std::int64_t items_in(std::int64_t tiles) const { return items.in(tiles, tiling.size()); }
 };
 
 std::string start_line(const Task& task, std::int64_t tiles_before)
@@ -84,7 +81,7 @@ std::string end_line(const Task& task, const FarmReport& report, double seconds)
 }
 
 FarmReport farm_tiles(const Task& task, const std::vector<std::int64_t>& missing,
-                      ResultWriter& file)
+                      ResultWriter& file, Sidecar& sidecar)
 {
     const std::int64_t tiles_before = task.own.size() - std::int64_t(missing.size());
     Progress progress(task.items_in(tiles_before), task.items_in(task.own.size()), task.items.name);
@@ -103,7 +100,10 @@ FarmReport farm_tiles(const Task& task, const std::vector<std::int64_t>& missing
             },
         .write = [&](std::int64_t place) { file.write(task.tiling[order.tile(place)], fields); },
         .on_progress =
-            [&](std::int64_t done) { progress.update(task.items_in(tiles_before + done)); }};
+            [&](std::int64_t done) {
+                progress.update(task.items_in(tiles_before + done));
+                sidecar.update(progress.state());
+            }};
     return farm_out(task.session, order.places_of(missing), tile_work,
                     {StopSignals::requested, StopSignals::overdue},
                     std::chrono::seconds(task.options.patience));
@@ -148,21 +148,24 @@ int run_on_this_rank(const Task& task)
     }
     ResultWriter file(path, task.session.communicator(), task.problem, task.options.durable);
     std::vector<std::int64_t> missing;
+    Sidecar sidecar(task.path, task.session.hosts(), task.kernel, task.start); // of rank 0
     if (task.is_rank_0()) {
         for (const std::int64_t number : task.damaged) {
             file.reset(task.tiling[number]);
         }
         missing = file.missing_tiles();
         std::erase_if(missing, [&](std::int64_t tile) { return !task.own.contains(tile); });
-        print_line(start_line(task, task.own.size() - std::int64_t(missing.size())));
+        const std::int64_t tiles_before = task.own.size() - std::int64_t(missing.size());
+        const std::int64_t before = task.items_in(tiles_before);
+        sidecar.update({before, before, task.items_in(task.own.size()), 0, task.items.name});
+        print_line(start_line(task, tiles_before));
     }
-    const FarmReport report = farm_tiles(task, missing, file);
+    const FarmReport report = farm_tiles(task, missing, file, sidecar);
     file.close();
     int code = exit_code::complete;
     if (task.is_rank_0()) {
         const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
-        write_sidecar(task.path,
-                      sidecar_of(report, task.session.hosts(), task.kernel, task.start, seconds));
+        sidecar.finish(report);
         code = report_end(task, report, seconds);
     }
     return task.session.from_rank_0(code);

@@ -67,10 +67,11 @@ void expect_place_for_sidecar(const std::string& spectrum_path)
     expect_place_for_text(spectrum_path + ".json", sidecar);
 }
 
-void write_sidecar(const std::string& spectrum_path, std::string_view text)
+void write_sidecar(const std::string& spectrum_path, std::string_view text, Syncing syncing)
 {
     write_text(spectrum_path + ".json", sidecar, text,
-               fmt::format(" The computed tiles are in \"{}\" nevertheless.", spectrum_path));
+               fmt::format(" The computed tiles are in \"{}\" nevertheless.", spectrum_path),
+               syncing);
 }
 
 } // namespace overturn

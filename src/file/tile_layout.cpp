@@ -53,10 +53,9 @@ void write_chunks(const StoredField& stored, const std::string& path, const Tile
                   const TilesOfPart& own, const ChunkOfTile& chunk_of)
 {
     // Syncing regularly keeps the amount of unsynced data, and thus each wait for the disk, small.
-    constexpr std::int64_t most_in_memory = 1 << 23; // [bytes]
     const std::int64_t bytes =
         tiles.points_of_chunk(stored.field) * std::int64_t(bytes_per_point(stored.field));
-    const std::int64_t tiles_in_memory = std::max<std::int64_t>(1, most_in_memory / bytes);
+    const std::int64_t tiles_between_syncs = std::max<std::int64_t>(1, most_unsynced_bytes / bytes);
     std::int64_t written = 0;
     for (std::int64_t number = 0; number < tiles.tiling.size(); ++number) {
         if (!own.contains(number)) {
@@ -64,7 +63,7 @@ void write_chunks(const StoredField& stored, const std::string& path, const Tile
         }
         const Tile tile = tiles.tiling[number];
         write_chunk(stored, tile, chunk_of(tile));
-        if (++written % tiles_in_memory == 0 && !sync(path)) {
+        if (++written % tiles_between_syncs == 0 && !sync(path)) {
             throw hdf5::Hdf5Error(system_reason(errno));
         }
     }

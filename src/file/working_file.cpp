@@ -131,9 +131,13 @@ PartFile::~PartFile()
     }
 }
 
-void PartFile::move_into_place()
+void PartFile::move_into_place(Syncing syncing)
 {
-    if (!sync(part_) || std::rename(part_.c_str(), target_.c_str()) != 0 || !sync(folder_)) {
+    const auto is_synced = [&](const std::string& path) {
+        return syncing == Syncing::no || sync(path);
+    };
+    if (!is_synced(part_) || std::rename(part_.c_str(), target_.c_str()) != 0 ||
+        !is_synced(folder_)) {
         throw Error(exit_code::output, "cannot create \"{}\": {}.", target_, system_reason(errno));
     }
     in_place_ = true;
@@ -163,7 +167,7 @@ void expect_place_for_text(const std::string& path, const OwnText& own)
 }
 
 void write_text(const std::string& path, const OwnText& own, std::string_view text,
-                const std::string& consequence)
+                const std::string& consequence, Syncing syncing)
 {
     expect_place_for_text(path, own); // a file may have appeared during the computation
     PartFile part(path);
@@ -175,7 +179,7 @@ void write_text(const std::string& path, const OwnText& own, std::string_view te
         throw Error(exit_code::output, "cannot write \"{}\", {}: {}.{}", path, own.kind,
                     system_reason(errno), consequence);
     }
-    part.move_into_place();
+    part.move_into_place(syncing);
 }
 
 } // namespace overturn

@@ -3,10 +3,17 @@
 // Also syncing to the disk, and the messages of the operating system.
 #pragma once
 
+#include "overturn/file/provenance.hpp"
+
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace overturn {
+
+/// While a file is created, it is synced whenever this much has been written: the amount of
+/// unsynced data, and thus each wait for the disk, stays small.
+inline constexpr std::int64_t most_unsynced_bytes = 1 << 23;
 
 /// Syncs a file or folder to the disk, so that it survives a power failure, including what other
 /// processes of this machine have written to it. Returns false, with errno, on failure.
@@ -43,7 +50,7 @@ public:
     const std::string& path() const { return part_; }
 
     /// Syncs the file, which must be closed, and renames it. Throws Error.
-    void move_into_place();
+    void move_into_place(Syncing syncing = Syncing::yes);
 
 private:
     std::string target_;
@@ -66,6 +73,6 @@ void expect_place_for_text(const std::string& path, const OwnText& own);
 /// Replaces an older file of this kind atomically. Throws Error; its message ends with
 /// `consequence`.
 void write_text(const std::string& path, const OwnText& own, std::string_view text,
-                const std::string& consequence = "");
+                const std::string& consequence = "", Syncing syncing = Syncing::yes);
 
 } // namespace overturn

@@ -2,6 +2,7 @@
 Also requires the library FAULTY_DISK of tests/faults in the environment."""
 
 import errno
+import json
 import os
 import shutil
 import signal
@@ -173,6 +174,20 @@ class AFullDisk(OnSmallDisk):
             "[[ ! -e $DISK/out.h5.json ]] || exit 1; exit $code")
         self.assert_exit(result, 74, "out.h5.json", "no space left on device",
                          "24 of 24 tiles are done; coordinates and checksums match")
+
+    def test_is_stated_by_a_plan(self):
+        result = self.on_small_disk(
+            "$OVERTURN check small.toml -o $DISK/out.h5; $OVERTURN check small.toml --json -o $DISK/out.h5 >plan.json;"
+            "(cat /dev/zero >$DISK/filler) 2>/dev/null;"
+            "$OVERTURN check small.toml --json -o $DISK/out.h5 >full.json; ls $DISK")
+        self.assert_exit(result, 0, "overturn: warning: the file takes", "are available in")
+        self.assertEqual(result.stdout.splitlines()[-1], "filler")
+        plan = json.loads((self.folder / "plan.json").read_text())
+        self.assertFalse(plan["fits"])
+        self.assertLess(plan["free_bytes"], plan["file_bytes"])
+        self.assertIn("the file takes", plan["warnings"][0])
+        full = json.loads((self.folder / "full.json").read_text())
+        self.assertEqual([full["free_bytes"], full["fits"], full["creation_seconds"]], [0, False, None])
 
     def forget_a_tile(self, name):
         shutil.copy(self.whole, self.folder / name)

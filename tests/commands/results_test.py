@@ -119,7 +119,7 @@ class AFinishedFile(Scratch):
         sidecar = json.loads((self.folder / "small.h5.json").read_text())
         self.assertEqual(len(sidecar["ranks"]), 3)
         self.assertEqual(sum(rank["tiles"] for rank in sidecar["ranks"]), 24)
-        self.assertRegex(sidecar["start"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ$")
+        self.assertRegex(sidecar["start"], r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z$")
         self.assertRegex(sidecar["hdf5"], r"^\d+\.\d+\.\d+$")
         for key in ("compiler", "mpi", "program_commit", "wall_seconds"):
             self.assertTrue(sidecar[key])

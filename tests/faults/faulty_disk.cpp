@@ -10,6 +10,7 @@
 //   WRITE_TAKES=10         milliseconds of each write, in all ranks, ...
 //   SLOW_WHILE=PATH        ... while this file exists
 //   COUNT_WRITES_IN=PATH   writes the numbers of writes and syncs at exit
+//   QUOTA_OF_USER=9000,100 quotactl() reports this limit and use in bytes; also QUOTA_OF_GROUP
 //   FAULTY_RANK=1          only in this rank; without a launcher the rank is 0
 #include <cerrno>
 #include <csignal>
@@ -18,6 +19,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <string>
+#include <sys/quota.h>
 #include <sys/uio.h>
 #include <unistd.h>
 
@@ -171,4 +173,21 @@ extern "C" int fsync(int descriptor)
         }
     }
     return real(descriptor);
+}
+
+extern "C" int quotactl(int command, const char*, int, caddr_t address)
+{
+    constexpr int types = 0xff;
+    const char* given =
+        std::getenv((command & types) == USRQUOTA ? "QUOTA_OF_USER" : "QUOTA_OF_GROUP");
+    unsigned long limit = 0;
+    unsigned long used = 0;
+    if (given == nullptr || std::sscanf(given, "%lu,%lu", &limit, &used) != 2) {
+        errno = ESRCH;
+        return -1;
+    }
+    auto* const quota = reinterpret_cast<struct dqblk*>(address);
+    quota->dqb_bhardlimit = limit / 1024;
+    quota->dqb_curspace = used;
+    return 0;
 }

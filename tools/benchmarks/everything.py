@@ -9,12 +9,12 @@ from building import SOURCE, fail
 
 EXPLANATION = """\
 Runs every benchmark of README.md and docs, as the documentation states it, one after another:
-about twenty minutes, and the first time a few more to build. Each writes its report, its JSON and
+about half an hour, and the first time a few more to build. Each writes its report, its JSON and
 its picture to a folder, beside `machine.txt`: processor, versions, date and commit. Do not run
 other programs meanwhile."""
 
 COMMANDS = ("peers", "peers --record", "kernel", "effects", "run", "ranks",
-            "ranks --record --points 512", "records", "records --museum", "sliding", "scale", "fill", "picture")
+            "ranks --record --points 512", "records", "records --museum", "sliding", "estimates", "scale", "fill", "picture")
 
 
 def add_arguments(parser):

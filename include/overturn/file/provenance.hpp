@@ -31,7 +31,12 @@ inline constexpr std::string_view sidecar_beginning = "{\n  \"program_version\":
 /// the name is too long. To be called before the computation.
 void expect_place_for_sidecar(const std::string& spectrum_path);
 
+/// Whether a file that is replaced is the old or the new one after a power failure, too. Syncing
+/// may wait for what other programs have written.
+enum class Syncing { no, yes };
+
 /// Writes the sidecar file spectrum_path + ".json". Replaces an older one atomically. Throws Error.
-void write_sidecar(const std::string& spectrum_path, std::string_view text);
+void write_sidecar(const std::string& spectrum_path, std::string_view text,
+                   Syncing syncing = Syncing::yes);
 
 } // namespace overturn

@@ -27,6 +27,12 @@ struct StoredDimension {
 struct Items {
     std::int64_t count;
     const char* name; ///< plural
+
+    /// Those in some of all tiles, as if these were equal.
+    std::int64_t in(std::int64_t tiles, std::int64_t all) const
+    {
+        return std::int64_t(double(count) * double(tiles) / double(all));
+    }
 };
 
 /// The fields of every point, each integrated.

@@ -1,13 +1,16 @@
 // JSON for programs. Numbers that are not finite are null.
 #pragma once
 
+#include "sidecar.hpp"
 #include "topple_answer.hpp"
 #include "varied_answer.hpp"
 
-#include "overturn/farm/farm.hpp"
-#include "overturn/sweep/kernel.hpp"
+#include "../estimate.hpp"
 
-#include <chrono>
+#include "overturn/file/disk_space.hpp"
+#include "overturn/file/stored_result.hpp"
+
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +22,11 @@ std::string json_of(const std::vector<DirectedAnswer>& all, const ToppleOptions&
 /// The answer of `overturn topple --vary`: the worst verdicts of all directions, and those of each.
 std::string json_of(const std::vector<DirectedRanges>& all, const ToppleOptions& options);
 
-/// The sidecar of a result file: what varies from run to run. hosts: of the ranks. seconds: of the
-/// run. Begins with `sidecar_beginning`.
-std::string sidecar_of(const FarmReport& report, const std::vector<std::string>& hosts,
-                       Kernel kernel, std::chrono::system_clock::time_point start, double seconds);
+/// The answer of `overturn check`. path: of the result file. space: in its folder.
+std::string json_of(const Job& job, const std::string& path, const DiskSpace& space,
+                    const RunEstimate& estimate, const std::vector<std::string>& warnings);
+
+/// The answer of `overturn info`. run: the last one, if it is known.
+std::string json_of(const StoredResult& stored, const std::optional<LastRun>& run);
 
 } // namespace overturn

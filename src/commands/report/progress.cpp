@@ -20,20 +20,30 @@ constexpr double longest_log_interval = 600;
 
 } // namespace
 
+std::optional<double> ProgressState::rate() const
+{
+    const double computed = double(done) - double(before);
+    return computed > 0 && seconds > 0 ? std::optional(computed / seconds) : std::nullopt;
+}
+
+std::optional<double> ProgressState::seconds_left() const
+{
+    const auto known = rate();
+    return known ? std::optional(double(all - done) / *known) : std::nullopt;
+}
+
 std::string progress_text(const ProgressState& state)
 {
     // Truncated: only a complete run shows 100 %.
     const int percent = int(100 * double(state.done) / double(state.all));
     std::string text = fmt::format("{} of {} {}, {} %", human_count(double(state.done)),
                                    human_count(double(state.all)), state.items, percent);
-    const double computed = double(state.done - state.before);
-    if (computed > 0 && state.seconds > 0) {
-        const double rate = computed / state.seconds;
-        if (rate >= 0.5) { // otherwise 0 when rounded
-            text += fmt::format(", {} {}/s", human_count(rate), state.items);
+    if (const auto rate = state.rate()) {
+        if (*rate >= 0.5) { // otherwise 0 when rounded
+            text += fmt::format(", {} {}/s", human_count(*rate), state.items);
         }
         if (state.done < state.all) {
-            text += fmt::format(", {} left", human_duration(double(state.all - state.done) / rate));
+            text += fmt::format(", {} left", human_duration(*state.seconds_left()));
         }
     }
     return text;

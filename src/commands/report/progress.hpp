@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <unistd.h>
 
@@ -17,6 +18,12 @@ struct ProgressState {
     std::int64_t all = 0;
     double seconds = 0; ///< since the start of this run [s]
     const char* items = "points";
+
+    /// Items per second of this run; nullopt before the first one.
+    std::optional<double> rate() const;
+
+    /// If the rest is computed at this rate [s]; nullopt if there is none.
+    std::optional<double> seconds_left() const;
 };
 
 /// "1.20 M of 3.00 M points, 40 %, 812 k points/s, 2 s left".
@@ -35,6 +42,8 @@ public:
 
     /// Prints the progress of all runs, if the interval since the last line has passed.
     void update(std::int64_t done);
+
+    const ProgressState& state() const { return state_; }
 
 private:
     ProgressState state_; ///< of the last update
