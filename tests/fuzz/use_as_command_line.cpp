@@ -27,7 +27,7 @@ int merge(const MergeOptions&)
 {
     refuse_to_run();
 }
-int check(const JobSource&)
+int check(const CheckOptions&)
 {
     refuse_to_run();
 }
@@ -51,7 +51,7 @@ int keys(const KeysOptions&)
 {
     refuse_to_run();
 }
-int info(const std::string&)
+int info(const InfoOptions&)
 {
     refuse_to_run();
 }

@@ -14,7 +14,8 @@ its picture to a folder, beside `machine.txt`: processor, versions, date and com
 other programs meanwhile."""
 
 COMMANDS = ("peers", "peers --record", "kernel", "effects", "run", "ranks",
-            "ranks --record --points 512", "records", "records --museum", "sliding", "estimates", "scale", "fill", "picture")
+            "ranks --record --points 512", "records", "records --museum", "sliding", "estimates", "scale", "fill",
+            "picture")
 
 
 def add_arguments(parser):
