@@ -27,7 +27,7 @@ NOT_RUN = {
     ("docs/installing.md", "cmake --preset release"): "configures the build used by the other blocks",
     ("docs/developing.md", "cmake --preset dev"): "a second build; tools/check docs has already made the first",
     ("docs/opensees.md", "/usr/bin/python3 -m venv"): "installs OpenSeesPy from PyPI; takes a quarter of an hour",
-    ("CONTRIBUTING.md", "tools/check"): "runs all tests",
+    ("CONTRIBUTING.md", "ctest"): "runs all tests",
     ("docs/python.md", "sudo apt-get install"): "installs the package from PyPI, as tools/check wheel does",
     ("docs/python.md", "import obspy"): "needs ObsPy; tests/python/traces_test.py runs it where ObsPy is installed",
 }

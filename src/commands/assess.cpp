@@ -97,7 +97,7 @@ std::vector<PartOfObject> parts_of_objects(const Table& table)
 {
     std::vector<PartOfObject> parts;
     const TableColumn* const objects = table.find(column_of_azimuths);
-    const TableColumn* const samples = table.find("sample");
+    const TableColumn* const samples = table.find(column_of_samples);
     std::map<std::string, std::int64_t> rows;
     std::map<std::string, std::int64_t> numbers;
     for (std::int64_t i = 0; objects != nullptr && i < table.rows(); ++i) {

@@ -9,10 +9,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <initializer_list>
 #include <map>
 #include <set>
+#include <string_view>
 
 namespace overturn {
 
@@ -216,8 +218,20 @@ std::size_t samples_of(const Components& components)
         components, [](const NamedComponent& each) { return each.content.acceleration.size(); }));
 }
 
-/// Those of the files, on components of other events than that of the first one, and on zeros that
-/// are added.
+/// Whether vertical components have such names: "UD", "Up", "HNZ".
+bool is_name_of_vertical(std::string_view name)
+{
+    constexpr std::array<std::string_view, 6> names{"ud", "up", "u", "z", "vert", "vertical"};
+    const auto is_name = [&](std::string_view each) {
+        return std::ranges::equal(each, name, {}, {},
+                                  [](unsigned char letter) { return char(std::tolower(letter)); });
+    };
+    const bool is_channel_code = name.size() == 3 && name.ends_with('Z');
+    return is_channel_code || std::ranges::any_of(names, is_name);
+}
+
+/// Those of the files, on components of other events than that of the first one, on zeros that are
+/// added, and on vertical components that are taken for horizontal ones.
 std::vector<std::string> remarks_on(const Components& components)
 {
     std::vector<std::string> remarks;
@@ -228,6 +242,11 @@ std::vector<std::string> remarks_on(const Components& components)
             remarks.push_back(fmt::format(
                 "{} is of {}, but {} of {}: they may be different motions", components[0].name,
                 in_quotes(as_utf8(event)), name, in_quotes(as_utf8(content.event))));
+        }
+        if (&content != &components.back().content && is_name_of_vertical(content.name)) {
+            remarks.push_back(fmt::format("{} is called {}, as vertical components are, but is a "
+                                          "horizontal one here",
+                                          name, in_quotes(as_utf8(content.name))));
         }
         const std::size_t size = content.acceleration.size();
         if (const std::size_t added = samples_of(components) - size; size > 0 && added > 0) {

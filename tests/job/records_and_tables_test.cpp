@@ -436,6 +436,21 @@ TEST_F(Pairs, OfDifferentEventsHaveARemark)
                              "1/16/1995, Nishi-Akashi\": they may be different motions"));
 }
 
+TEST_F(Pairs, WithAVerticalComponentAsTheSecondOneHaveARemark)
+{
+    write("a.AT2", at2(5, 0, "Kobe, 1/16/1995, Takatori, 0"));
+    for (const std::string name : {"UP", "Ud", "HNZ", "Z", "90", "HNE", "Zoo"}) {
+        write("b.AT2", at2(5, 1, "Kobe, 1/16/1995, Takatori, " + name));
+        const Names remarks =
+            plane("record = 'a.AT2'\nsecond_component = 'b.AT2'", in_two_directions)
+                .motions.at(0)
+                .remarks;
+        const bool is_vertical = name.starts_with('U') || name.ends_with('Z');
+        EXPECT_EQ(remarks.size(), is_vertical ? 1 : 0) << name;
+        EXPECT_EQ(plane("record = 'a.AT2'\nvertical = 'b.AT2'").motions.at(0).remarks, Names());
+    }
+}
+
 TEST_F(Motions, AreRefusedIfOneIsListedTwiceUnderAnySpelling)
 {
     write_components("a.V2A", {"N", "E"});

@@ -131,12 +131,12 @@ TEST(At2, IsRefusedWithFileLineAndReason)
 {
     expect_refused({
         {"FewerSamples", at2("NPTS= 4, DT= .01 SEC"),
-            "a.txt:6: the file ends after 3 at2_samples, but NPTS announces 4 in line 4. Give the complete file."},
+            "a.txt:6: the file ends after 3 samples, but NPTS announces 4 in line 4. Give the complete file."},
         {"MoreSamples", at2("NPTS= 2, DT= .01 SEC"),
-            "a.txt:6: \"0.5\" follows the last of the 2 at2_samples that NPTS announces in line 4. Correct NPTS or "
+            "a.txt:6: \"0.5\" follows the last of the 2 samples that NPTS announces in line 4. Correct NPTS or "
             "remove the rest."},
         {"NoSamples", at2("NPTS= 3, DT= .01 SEC", ""),
-            "a.txt:4: the file ends after 0 at2_samples, but NPTS announces 3 in line 4. Give the complete file."},
+            "a.txt:4: the file ends after 0 samples, but NPTS announces 3 in line 4. Give the complete file."},
         {"NoPoints", at2("NPTS= 0, DT= .01 SEC"),
             "a.txt:4: NPTS is \"0\", but must be an integer from 1 to 10000000. Correct it, or give another "
             "record."},
@@ -188,7 +188,7 @@ TEST(At2, IsRefusedWithFileLineAndReason)
             "a.txt:3: \"VELOCITY TIME SERIES IN UNITS OF CM/S\" does not announce accelerations. Give the file "
             "of the acceleration."},
         {"NotANumber", with(sound_at2, "0.5", "0.5 rest"),
-            "a.txt:6: \"rest\" follows the last of the 3 at2_samples that NPTS announces in line 4. Correct NPTS or "
+            "a.txt:6: \"rest\" follows the last of the 3 samples that NPTS announces in line 4. Correct NPTS or "
             "remove the rest."},
         {"AWordAmongTheSamples", with(sound_at2, "-.25E-01", "missing"),
             "a.txt:5: \"missing\" is not a number. Write numbers as in 0.5, -.5E-01 or -.5D-01."},

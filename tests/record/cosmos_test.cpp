@@ -118,7 +118,7 @@ TEST(Cosmos, IsNotCorrectedIfTheFileSaysSo)
 
 const Options raw_options{
     .stage = "Raw",
-    .units = "raw_options (50)",
+    .units = "counts (50)",
     .integers = {{1, "0"}, {2, "1"}, {3, "50"}},
     .reals = {{22, "0.5"}, {34, "0.005"}, {42, "1.25"}, {47, "1.0"}, {62, "5.0"}},
     .format = "(10I8)",
@@ -241,32 +241,32 @@ TEST(Cosmos, IsRefusedWithFileLineAndReason)
         {"ContradictoryUnits", with_value({}, false, 3, "2"),
             "a.txt:38: the unit \"cm/sec2\" contradicts integer 3 of the header, 2. Correct one of them."},
         {"NoUnit", with(channel(), "units=cm/sec2(04),", ""),
-            "a.txt:38: the unit \"\" of the cosmos_samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
+            "a.txt:38: the unit \"\" of the samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
             "usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with their "
             "unit."},
         {"AnotherUnit", channel({.units = "mg(11)"}),
-            "a.txt:38: the unit \"mg\" of the cosmos_samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
+            "a.txt:38: the unit \"mg\" of the samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
             "usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with their "
             "unit."},
         {"ContradictoryTimeSteps", with_value({}, true, 62, "5.0"),
-            "a.txt:28: real 63, the length of the series, is 0.2 s, but 10 cosmos_samples at 0.005 s are 0.05 s. Give the file "
+            "a.txt:28: real 63, the length of the series, is 0.2 s, but 10 samples at 0.005 s are 0.05 s. Give the file "
             "as it was published, or correct the wrong one."},
         {"AContradictoryDuration", with(channel({.reals = {{34, "1.0"}}}), "approx    0 secs", "approx   50 secs"),
-            "a.txt:38: the approximate duration is 50 s, but 10 cosmos_samples at 1 s are 10 s. Give the file as it was "
+            "a.txt:38: the approximate duration is 50 s, but 10 samples at 1 s are 10 s. Give the file as it was "
             "published, or correct the wrong one."},
         {"AnUnknownTimeStep", channel({.reals = {}}),
             "a.txt:17: the time step, real 62 of the header in ms, is unknown or 0. Give a file that states it."},
         {"CountsOfUnknownSensitivity", with_value(raw_options, true, 42, "-999"),
-            "a.txt:17: the cosmos_samples are raw_options, but reals 22 (microvolts per count), 42 (volts per g) and 47 (gain, "
+            "a.txt:17: the samples are counts, but reals 22 (microvolts per count), 42 (volts per g) and 47 (gain, "
             "must be 1) of the header are 0.5, -999 and 1. Give the file of volume 1 or 2, in cm/sec2."},
         {"CountsWithAGain", with_value(raw_options, true, 47, "10.0"),
-            "a.txt:17: the cosmos_samples are raw_options, but reals 22 (microvolts per count), 42 (volts per g) and 47 (gain, "
+            "a.txt:17: the samples are counts, but reals 22 (microvolts per count), 42 (volts per g) and 47 (gain, "
             "must be 1) of the header are 0.5, 1.25 and 10. Give the file of volume 1 or 2, in cm/sec2."},
         {"FewerSamples", with(channel(), "7.00000-100.50000", "7.00000"),
             "a.txt:40: the line has 1 column of 10 characters, but must have 2: line 38 announces 10 values of the "
             "series, 8 per line. Give the file as it was published."},
         {"MoreSamples", with(channel(), "7.00000-100.50000\n", "7.00000-100.50000\n   9.00000\n"),
-            "a.txt:41: \"9.00000\" follows the last of the cosmos_samples that were announced. Correct their number, or give "
+            "a.txt:41: \"9.00000\" follows the last of the samples that were announced. Correct their number, or give "
             "the file as it was published."},
         {"NoFormat", with(channel(), "(8F10.5)", ""),
             "a.txt:38: the line states no format of the values, such as Format=(8F10.5). Give the file as it was "

@@ -10,7 +10,7 @@ const std::string accelerations =
 const std::string velocities = "-.00141810 .25000000 -1.5000000 2.00000000 3.00000000 4.00000000 "
                                "5.00000000 6.0000000\n";
 
-/// A channel of ten csmip_samples.
+/// A channel of ten samples.
 std::string channel(const std::string& name)
 {
     return "Corrected accelerogram   99999-L1-14236.52       Chan  1:  " + name +
@@ -187,18 +187,18 @@ TEST(Csmip, IsRefusedWithFileLineAndReason)
             "a.txt:11: the channel that begins in line 1 has no line such as 7500 points of accel data equally spaced "
             "at .010 sec, in cm/sec2. (8f10.6). Give the complete file of volume 2."},
         {"NoUnit", with(sound_csmip, "in cm/sec2. ", ""),
-            "a.txt:12: the unit \"\" of the csmip_samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
+            "a.txt:12: the unit \"\" of the samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and their "
             "usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with their "
             "unit."},
         {"AnotherUnit", with(sound_csmip, "in cm/sec2.", "in g/10."),
-            "a.txt:12: the unit \"g/10.\" of the csmip_samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and "
+            "a.txt:12: the unit \"g/10.\" of the samples is not understood. Understood are g, m/s2, cm/s2, mm/s2, gal and "
             "their usual spellings, such as cm/sec2. Give the file of the acceleration, or the values as text with "
             "their unit."},
         {"AnotherUnitOfTheTimeStep", with(sound_csmip, ".010 sec, in", "10. msec, in"),
             "a.txt:12: the time step \"10.\" is followed by \"msec,\", but must be in seconds, as in .010 sec. Correct "
             "it."},
         {"ContradictoryTimeSteps", with(sound_csmip, "intervals of    .010", "intervals of    .005"),
-            "a.txt:7: the interval is .005 s, but that of the csmip_samples is 0.01 s. Give the file as it was published, or "
+            "a.txt:7: the interval is .005 s, but that of the samples is 0.01 s. Give the file as it was published, or "
             "correct the wrong one."},
         {"ACutNumber", with(sound_csmip, "(8f10.6)", "(10f8.6)"),
             "a.txt:13: column 1 of 8 characters ends within a number: \"-.0012\". Give the file as it was published."},

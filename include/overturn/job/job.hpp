@@ -38,6 +38,11 @@ struct ShapeTable {
     std::shared_ptr<const Accelerogram> shape;
 };
 
+/// The column with the object of which a row is an azimuth, and that of the samples of the object.
+/// They have no effect on the points, but on what is concluded from them.
+inline constexpr std::string_view column_of_azimuths = "azimuth_of";
+inline constexpr std::string_view column_of_samples = "sample";
+
 /// The table of the blocks of a job.
 struct BlockTable {
     std::string file;     ///< path as the job spells it

@@ -13,9 +13,6 @@
 
 namespace overturn {
 
-/// The column with the object of which a row is an azimuth.
-inline constexpr std::string_view column_of_azimuths = "azimuth_of";
-
 /// The value of a row, as a text.
 std::string text_in(const TableColumn& column, std::size_t row);
 

@@ -194,7 +194,8 @@ std::string unused_columns(const Job& job)
     }
     auto names = job.blocks->table.columns | std::views::transform(&TableColumn::name) |
                  std::views::filter([&](const std::string& name) {
-                     return !job.problem.grid.has_table_column(name);
+                     return !job.problem.grid.has_table_column(name) &&
+                            name != column_of_azimuths && name != column_of_samples;
                  });
     return printable(fmt::format("{}", fmt::join(names, ", ")));
 }
