@@ -306,6 +306,12 @@ void print_assessment(const Job& job, const std::vector<ObjectAnswer>& answers,
             print_row("record", scene.worded(line));
         }
     }
+    const Column* const share = job.problem.grid.find("restitution_of_maximum");
+    if (share != nullptr && share->values.size() == 1) {
+        print_row("restitution", share->values[0] == 1
+                                     ? "r_max, the largest one of each object"
+                                     : fmt::format("{} of r_max", share->values[0]));
+    }
     if (has_strength) {
         print_row("strength", scene.worded(options.scale ? fmt::format("scale {}", *options.scale)
                                                          : fmt::format("PGA {} g", *options.pga)));
