@@ -193,7 +193,7 @@ class TheSite(unittest.TestCase):
 
 
 class AnObject(unittest.TestCase):
-    """Rows of one value of the column object are one thing."""
+    """Rows of one value of the column azimuth_of are one thing."""
 
     ORDER = F, NOT_COMPUTED, UNDECIDED, S  # the first that one of its rows has is its verdict
 

@@ -33,8 +33,8 @@ example:
 The contacts are a table with the columns x, y, z, in the coordinates and the unit of the mesh. The
 table of blocks has a row for each edge of their outline in plan, in the plane across the edge, or
 with --step for each of these azimuths. The side plus is that to which the azimuth points. The pivots
-are where the vertical plane through the centre of mass cuts the outline. The column object says that
-the rows are one rock, which falls if it falls in one of them.
+are where the vertical plane through the centre of mass cuts the outline. The column azimuth_of says
+that the rows are one rock, which falls if it falls in one of them.
 
 Azimuths are counted from x towards y, to the left seen from above. With --x-azimuth, the table also
 has the column direction, on a compass: it is then for records with a component to the north
@@ -474,7 +474,7 @@ def read_arguments(argv):
                         "one as in --up=-y")
     parser.add_argument("--x-azimuth", metavar="DEG", type=float, help="azimuth of the axis x on a compass (of y with --up "
                         "x or -x), clockwise from north; adds the column direction")
-    parser.add_argument("--name", help="of the rock, in the column object (default: that of the mesh)")
+    parser.add_argument("--name", help="of the rock, in the column azimuth_of (default: that of the mesh)")
     parser.add_argument("--density", metavar="RHO", type=positive, help="[kg/m3], to print the mass")
     parser.add_argument("--step", metavar="DEG", type=positive, help="rows at this step of azimuth, not for each edge")
     parser.add_argument("--fill", action="store_true", help="close flat holes")
