@@ -9,7 +9,7 @@ import shutil
 import unittest
 
 import h5py
-from plot_fragility_test import Curve  # first: adds the package to the path
+from plot_fragility_test import Curve, run_overturn  # first: adds the package to the path
 import overturn
 from overturn import risk
 from overturn.plot import risks
@@ -175,6 +175,12 @@ class TestARiskRefused(Picture):
                      self.write(HAZARD.replace("[g]", "[m/s2]")))
         self.refuses(2, "'sa' is not an intensity measure", "result.h5", self.write(HAZARD.replace("pga", "sa")))
         self.refuses(2, "Choose one with site = 0 to 1", "result.h5", OPENQUAKE)
+
+    def test_of_pooled_samples_of_a_rock(self):
+        (self.folder / "samples.csv").write_text("azimuth_of,sample,slenderness,size\nrock,0,0.2,1\nrock,1,0.15,1\n")
+        run_overturn(self.folder, "run", 'scene.record = "*.AT2"\nblocks.table = "samples.csv"\n'
+                     "plane.restitution_of_maximum = 0.9\nplane.scale.values = [1, 2, 4]\n", "samples.h5")
+        self.refuses(2, "Use a table without --jitter", "samples.h5", "hazard.txt", "--samples", "1")
 
     def test_without_a_time_or_a_probability(self):
         self.refuses(2, "--years: -1 is not a positive number", "result.h5", "hazard.txt", "--years", "-1")

@@ -397,6 +397,24 @@ class TwoMeasures(unittest.TestCase):
             return found.at(np.geomspace(0.2, 4, 9))
         np.testing.assert_array_equal(at(several), at(blocks))
 
+    def test_of_pooled_samples_of_an_object_is_refused(self):
+        region, scale = population()
+        samples = result(region[..., [0, 1, 2]], scale).assign_coords(
+            azimuth_of=("block", [1, 1, 2]), sample=("block", [0, 1, 0]))
+        curve, plane = overturn.fragility(samples, "pga", samples=1), overturn.fragility_plane(samples, samples=1)
+        hazard = risk.Hazard([0.01, 10], [1, 1e-6], **PGA)
+        for compute in (lambda: risk.annual_rate(hazard, curve), lambda: risk.shares_of(curve),
+                        lambda: risk.largest_factor(hazard, curve, 100, 0.5),
+                        lambda: risk.updated_weights([hazard], [1], curve, 100),
+                        lambda: risk.marginal(plane, self.density),
+                        lambda: risk.binned_marginal(samples, "pga", "pgv", self.density, samples=1),
+                        lambda: risk.annual_rate(hazard, overturn.fragility(samples, "pga", together="azimuth_of",
+                                                                            samples=1))):
+            with self.assertRaisesRegex(ValueError, "pools the samples .* the mean of the survival of each sample"):
+                compute()
+        one = samples.isel(block=samples["sample"].values == 0)  # of both objects
+        self.assertTrue(np.isfinite(risk.annual_rate(hazard, overturn.fragility(one, "pga", samples=1)).rate).all())
+
 
 class TheHazard(unittest.TestCase):
     def setUp(self):

@@ -62,6 +62,7 @@ class Fragility(Binned):
     #: (samples, 2), median and beta; their quantiles are the intervals. Empty if there are none
     samples: NDArray[np.float64] = dataclasses.field(default_factory=lambda: np.empty((0, 2)))
     kind: str = "blocks"  #: what `blocks` counts, such as "rows of the table"
+    pools_samples: bool = False  #: whether an object has several samples, such as of its contacts; risk refuses them
     #: (2, bins), 95 % confidence of `fraction`, with motions as the independent units; NaN: of fewer than two motions
     fraction_interval: NDArray[np.float64] = dataclasses.field(default_factory=lambda: np.empty((2, 0)))
 

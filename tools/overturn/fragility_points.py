@@ -26,7 +26,7 @@ def points_of(dataset, measures, exceedance, friction_demand, together=None):
     parts, dimension, whose = [dataset], objects.dimension if has_several_rows else None, "rows of an object"
     if together is not None:
         number, parts, dimension = blocks_at_one_site(dataset, together)
-        blocks = blocks if together == "azimuth_of" else {"blocks": number, "kind": "blocks"}
+        blocks |= {} if together == "azimuth_of" else {"blocks": number, "kind": "blocks"}
         whose = "blocks"
     vary = [name for name, each in measures.items()
             if dimension in each.dims and dimension not in dataset["motion"].dims]
@@ -37,7 +37,8 @@ def points_of(dataset, measures, exceedance, friction_demand, together=None):
 
 
 def _blocks(dataset):
-    """Returns the number of blocks, and what they are: rows of a table may be one block several times."""
+    """Returns the number of blocks, what they are (rows of a table may be one block several times), and whether they
+    are several samples of an object."""
     sizes = {name: count for name, count in dataset["region"].sizes.items() if name not in ("motion", "scale", "pga")}
     directions = sizes.pop("direction", 1)
     if objects := objects_of(dataset):
@@ -47,7 +48,8 @@ def _blocks(dataset):
     else:
         number = math.prod(sizes.values())
         kind = "rows of the table" if sizes.get("block") == number else "blocks"
-    return {"blocks": number, "kind": kind + f" in {directions} directions" * (directions > 1)}
+    return {"blocks": number, "kind": kind + f" in {directions} directions" * (directions > 1),
+            "pools_samples": bool(objects) and objects.samples > number}
 
 
 def cells_of(dataset, measures, exceedance, friction_demand, by_direction=False):

@@ -55,6 +55,7 @@ class FragilityPlane(Binned):
     samples: NDArray[np.float64]  #: (samples, 3), of the bootstrap over motions; empty if there are none
     notes: tuple[str, ...]
     group: str = ""  #: which blocks of the result these are; empty: all
+    pools_samples: bool = False  #: whether an object has several samples, such as of its contacts; risk refuses them
 
     @property
     def coefficients_interval(self) -> NDArray[np.float64]:

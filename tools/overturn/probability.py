@@ -45,6 +45,7 @@ def probability_of(fragility: Fragility | Probability) -> Probability:
     if not isinstance(fragility, Fragility):
         raise TypeError(f"{type(fragility).__name__} is not a fragility. Give the result of fragility(), lognormal(), "
                         "binned(), marginal() or binned_marginal().")
+    expect_no_samples(fragility.pools_samples)
     if np.isnan(fragility.median):
         return shares_of(fragility)
     curve, total = fragility, fragility.points + fragility.without_verdict
@@ -54,8 +55,18 @@ def probability_of(fragility: Fragility | Probability) -> Probability:
                      edges=curve.edges, unknown=[is_outside, *unknown])
 
 
+def expect_no_samples(pools_samples):
+    """Raises ValueError if a fragility pools samples: survival is a mean over them, not that of their mean."""
+    if pools_samples:
+        raise ValueError("this fragility pools the samples of an object (column sample). Its contacts do not change from "
+                         "one shaking to the next, so the survival of the pooled samples would be too low, often by far. Use a "
+                         "table without --jitter, or the mean of the survival of each sample: docs/risk.md, "
+                         "\"Uncertain contacts\".")
+
+
 def shares_of(curve: Fragility) -> Probability:
     """Returns P(x) of the bins of a fragility curve, without its fit; see binned()."""
+    expect_no_samples(curve.pools_samples)
     if not len(curve.edges):
         raise ValueError("no point of this fragility curve has a verdict. Compute the missing points.")
     total = curve.points + curve.without_verdict
@@ -147,6 +158,7 @@ def marginal(probability: Callable | FragilityPlane, density: Callable, y: Array
     """
     breaks = np.empty(0)
     if isinstance(probability, FragilityPlane):
+        expect_no_samples(probability.pools_samples)
         if np.isnan(probability.coefficients).any():
             raise ValueError("this plane has no fit; its notes say why. binned_marginal() needs none.")
         im, units, breaks, edges = probability.x, probability.x_units, probability.x_edges, probability.y_edges
@@ -203,6 +215,7 @@ def binned_marginal(dataset: xarray.Dataset, x: str, y: str, density: Callable, 
     """
     bins, samples, seed = two_counts(bins), count("samples", samples, least=0), count("seed", seed, least=0)
     found = points_of_plane(dataset, x, y, Exceedance(of, above), friction_demand, together, bins)
+    expect_no_samples(found.blocks["pools_samples"])
     motions, edges = found.motions, found.edges
     points, exceeding, unknown = found.totals()
     weights = np.vstack([np.ones(len(motions)), drawn(len(motions), samples * (len(motions) >= LEAST_MOTIONS), seed)])

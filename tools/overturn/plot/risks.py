@@ -213,6 +213,7 @@ def compute(arguments):
     with open_dataset(arguments.file) as dataset:
         im = variable_of_ground(dataset.attrs, hazards[0].im)
         curve = compute_curve(dataset, im, arguments, together=arguments.together)
+        overturn.risk.probability_of(curve)  # refuses what has no rate, before each block alone
         alone = {name: compute_curve(block, im, arguments, together=arguments.together)
                  for name, block in (each_block(dataset, arguments.together).items() if curve.together else ())}
         title = dataset.attrs.get("title") or f"Risk: {pathlib.Path(arguments.file).name}"
