@@ -1,5 +1,6 @@
 """overturn.risk: hazard curves, annual rates of overturning, survival and what follows from them."""
 
+import dataclasses
 import pathlib
 import unittest
 
@@ -116,6 +117,14 @@ class TheRate(unittest.TestCase):
         self.assertIn(f"without the fit, from the shares in the 10 bins of the fragility: {of_bins[0]:.4g} or more "
                       "a year", found.summary())
         self.assertTrue(np.isnan(risk.annual_rate(power_law(), CURVE).interval).all())
+
+    def test_without_an_interval_warns_if_it_depends_on_the_fit(self):
+        curve = overturn.fragility(result(*population()), "pga", bins=40, samples=50)
+        other = dataclasses.replace(curve, median=1.5 * curve.median)
+        for fragility, is_certain, warns in ((curve, False, False), (other, False, True), (other, True, False)):
+            samples = curve.samples if is_certain else np.empty((0, 2))
+            text = risk.annual_rate(bent(), dataclasses.replace(fragility, samples=samples)).summary()
+            self.assertEqual("warning: the rates with and without the fit differ by a factor of" in text, warns, text)
 
     def test_is_refused_for_another_measure_or_another_unit(self):
         for im, units in (("pgv", "m/s"), ("pga", "m/s2")):

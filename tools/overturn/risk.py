@@ -33,6 +33,7 @@ __all__ = ["Age", "Factor", "Hazard", "Probability", "Risk", "UpdatedWeights", "
 
 SMALL = 1e-3  # part of the rate from outside the data of the fragility that is not mentioned
 LARGEST_FACTOR = 1e6
+TOLERABLE = 1.3  # factor between the rates with and without the fit that is not mentioned, if there is no confidence
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -109,8 +110,13 @@ def annual_rate(hazard: Hazard, fragility: Fragility | Probability, *, edges: Ar
     interval = rate_integral.interval(rate)
     notes = _notes(hazard, p, contribution[0], points, within[0], interval)
     if isinstance(fragility, Fragility) and np.isfinite(fragility.median):
+        of_shares = annual_rate(hazard, shares_of(fragility)).rate
         notes.append(f"without the fit, from the shares in the {len(fragility.points)} bins of the fragility: "
-                     f"{text_of(annual_rate(hazard, shares_of(fragility)).rate)} a year")
+                     f"{text_of(of_shares)} a year")
+        lows, highs = zip(rate[0], of_shares)
+        if np.isnan(interval[0]) and max(lows) > TOLERABLE * min(highs):
+            notes.append(f"warning: the rates with and without the fit differ by a factor of {max(lows) / min(highs):.2g}, "
+                         "and there is no confidence interval. Use more motions")
     return Risk(p.im, p.units, rate[0], interval, np.array([0, first, *inner, last, np.inf]), contribution[0],
                 float(abs((halved - within)[0].sum(axis=-1)).max()), tuple(notes))
 
