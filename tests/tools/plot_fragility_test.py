@@ -121,14 +121,28 @@ class TestAPicture(Curve):
         text, words = self.words("rock.h5", "--polar", "azimuth_from_x", "--im", "pga", "--samples", "20")
         medians = re.findall(r"azimuth_from_x = ([0-9]+) degree\nmedian ([0-9.]+)", text)
         self.assertEqual(min(medians, key=lambda each: float(each[1]))[0], "90")
-        self.assertRegex(words, r"median PGA \[g\],  least [0-9.]+ at 90° from x")
-        self.assertIn("weakest azimuth", words)
+        self.assertRegex(words, r"median PGA \[g\],  least [0-9.]+ in the plane 90°-270° from x")
+        self.assertIn("weakest plane", words)
         # Together they are one object, weaker than each of its rows.
         text, words = self.words("rock.h5", "--im", "pga", "--samples", "20")
         self.assertIn("1 object in 4 rows;", text)
         self.assertIn("10 motions,  1 object in 4 rows", words)
         least = min(float(each[1]) for each in medians)
         self.assertLessEqual(float(re.search(r"median ([0-9.]+)", text)[1]), 1.05 * least)
+
+    def test_of_several_objects_counts_the_rows_of_all(self):
+        (self.folder / "both.csv").write_text("azimuth_of,azimuth_from_x,slenderness,size\nrock,0,0.2,1\nrock,90,0.15,1\n"
+                                              "boulder,0,0.3,1\n")
+        run_overturn(self.folder, "run", 'scene.record = "*.AT2"\nblocks.table = "both.csv"\n'
+                     "plane.restitution_of_maximum = 0.9\nplane.scale.values = [1, 2, 4]\n", "both.h5")
+        text, words = self.words("both.h5", "--by", "azimuth_of", "--im", "pga", "--samples", "1")
+        self.assertIn("10 motions,  2 objects in 3 rows,  2 groups", words)
+        self.assertNotIn("azimuth of =", text + words)
+        text, words = self.words("both.h5", "--together", "azimuth_of", "--im", "pga", "--samples", "1")
+        self.assertIn("10 motions,  2 objects in 3 rows together", words)
+        self.assertIn("2 objects in 3 rows together;", text)
+        self.refuses(2, "--polar draws the azimuths of one object, but this result has 2 objects in 3 rows", "both.h5",
+                     "--polar", "azimuth_from_x")
 
     def test_replaces_its_own_table_and_no_other(self):
         self.output_of("result.h5", "--im", "pga", "--csv", "own.csv", "-o", "picture.png")

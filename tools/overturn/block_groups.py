@@ -62,9 +62,9 @@ def objects_of(dataset):
 
 
 def groups_of(dataset, column):
-    """Returns the parts of a data set of overturn.open(), by a text such as "kind = urn" or "size = 0.5 m". There is a
-    group for each value; if there are more than MOST_NUMBERS numbers, a group for each quarter of the blocks or
-    objects.
+    """Returns the parts of a data set of overturn.open(), by a text such as "kind = urn", "size = 0.5 m" or the
+    name of an object. There is a group for each value; if there are more than MOST_NUMBERS numbers, a group for each
+    quarter of the blocks or objects.
 
     Raises ValueError if the column does not distinguish the blocks, or has too many different texts."""
     from overturn.captions import UNITS  # needs h5py
@@ -74,8 +74,8 @@ def groups_of(dataset, column):
     labels = _labels(column, values, objects.names if is_of_rows else np.arange(len(values)))
     units = dataset[column].attrs.get("units", "1")
     unit = UNITS.get(units, units)
-    name = column.replace("_", " ")
-    return {f"{name} = {label} {unit * (label != NOT_GIVEN)}".rstrip():
+    name = "" if column == "azimuth_of" else column.replace("_", " ") + " = "  # an object has a name of its own
+    return {f"{name}{label} {unit * (label != NOT_GIVEN)}".rstrip():
             dataset.isel({dimension: np.flatnonzero(labels == label)})
             for label in dict.fromkeys(labels[np.argsort(values, kind="stable")] if values.dtype.kind in "fiu"
                                        else sorted(labels))}

@@ -21,7 +21,7 @@ def points_of(dataset, measures, exceedance, friction_demand, together=None):
     kind; which blocks these are, as fields of a Fragility; and notes.
 
     measures: of every motion at every scale, by name."""
-    objects, blocks = objects_of(dataset), _blocks(dataset)
+    objects, blocks = objects_of(dataset), blocks_of(dataset)
     has_several_rows = objects and len(np.unique(objects.of_row)) < len(objects.of_row)
     parts, dimension, whose = [dataset], objects.dimension if has_several_rows else None, "rows of an object"
     if together is not None:
@@ -36,7 +36,7 @@ def points_of(dataset, measures, exceedance, friction_demand, together=None):
     return cells, blocks, [f"{name} is the largest of those in the directions of the {whose}" for name in vary]
 
 
-def _blocks(dataset):
+def blocks_of(dataset):
     """Returns the number of blocks, what they are (rows of a table may be one block several times), and whether they
     are several samples of an object."""
     sizes = {name: count for name, count in dataset["region"].sizes.items() if name not in ("motion", "scale", "pga")}
@@ -49,7 +49,7 @@ def _blocks(dataset):
         number = math.prod(sizes.values())
         kind = "rows of the table" if sizes.get("block") == number else "blocks"
     return {"blocks": number, "kind": kind + f" in {directions} directions" * (directions > 1),
-            "pools_samples": bool(objects) and objects.samples > number}
+            "pools_samples": objects is not None and objects.samples > number}
 
 
 def cells_of(dataset, measures, exceedance, friction_demand, by_direction=False):

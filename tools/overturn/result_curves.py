@@ -17,14 +17,17 @@ def add_group_argument(parser):
                              "size; of more than 6 numbers, for each quarter of the blocks")
 
 
-def add_curve_arguments(parser, bins):
-    """Adds the arguments of a curve, see compute_curve()."""
+def add_curve_arguments(parser, bins, further=""):
+    """Adds the arguments of a curve, see compute_curve(). further: what else --together does."""
     parser.add_argument("--of", metavar="FIELD", default=OVERTURNING,
                         help="with --above, count the points whose field, such as peak or slide_peak, is above X; "
                              "otherwise those that overturn")
     parser.add_argument("--above", type=float, metavar="X", help="in the unit of the field; of peak, at most 1")
     parser.add_argument("--limit", action=Renamed, const="--of peak --above", help=argparse.SUPPRESS)
     parser.add_argument("--friction", action=Renamed, const="--friction-demand", help=argparse.SUPPRESS)
+    parser.add_argument("--together", metavar="COLUMN",
+                        help="the blocks stand at one site and differ in this column of their table, or along this "
+                             "axis, such as block: a point exceeds if one of them does" + further)
     parser.add_argument("--friction-demand", type=float, metavar="MU",
                         help="friction coefficient between block and ground: points whose field friction_demand is above MU "
                              "have no verdict")
@@ -37,8 +40,8 @@ def add_curve_arguments(parser, bins):
     parser.add_argument("--seed", type=int, metavar="N", default=1, help="of the bootstrap (default: %(default)s)")
 
 
-def compute_curve(dataset, im, arguments, **further):
-    return overturn.fragility(dataset, im, bins=arguments.bins, **_how(arguments), **further)
+def compute_curve(dataset, im, arguments):
+    return overturn.fragility(dataset, im, bins=arguments.bins, **_how(arguments))
 
 
 def compute_plane(dataset, arguments):
@@ -46,7 +49,7 @@ def compute_plane(dataset, arguments):
 
 
 def _how(arguments):
-    names = ("of", "above", "friction_demand", "equal_counts", "samples", "seed")
+    names = ("of", "above", "friction_demand", "together", "equal_counts", "samples", "seed")
     return {name: getattr(arguments, name) for name in names}
 
 

@@ -13,7 +13,8 @@ LARGEST = 1.6  # times the largest median, of ends of intervals that are drawn
 
 def fragility_azimuths(degrees, curves, column=COMPASS):
     """Draws the medians of fragility curves at these azimuths [degree], with 95 % confidence, marks the weakest
-    azimuth, and returns the polar axes. Azimuths whose curve has no fit are marked at the rim: their median is unknown.
+    plane to both sides, because a block falls to both, and returns the polar axes. Azimuths whose curve has no fit are
+    marked at the rim: their median is unknown.
 
     column: of the azimuths; "direction" is on a compass, others are counted from x, counter-clockwise."""
     figure = pyplot.figure(figsize=(5.6, 6.4), layout="constrained")
@@ -36,9 +37,11 @@ def fragility_azimuths(degrees, curves, column=COMPASS):
                       label="95 % confidence")
         ax.plot(azimuths[known], medians[known], "o", color=COLOURS[0], markersize=4, label="median")
         weakest, of_known = np.nanargmin(medians), "" if known.all() else " of the known ones"
-        ax.plot([azimuths[weakest]] * 2, [0, medians[weakest]], color=WEAKEST, linewidth=2,
-                label=f"weakest azimuth{of_known}")
-        words.append(f"least{of_known} {medians[weakest]:.3g} at {degrees[weakest]:g}°" + " from x" * (column != COMPASS))
+        plane = round(degrees[weakest] % 180, 1)
+        ax.plot(azimuths[weakest] + np.array([0, 0, np.pi]), medians[weakest] * np.array([1, 0, 1]), color=WEAKEST, linewidth=2,
+                label=f"weakest plane{of_known}")
+        words.append(f"least{of_known} {medians[weakest]:.3g} in the plane {plane:g}°-{plane + 180:g}°"
+                     + " from x" * (column != COMPASS))
     if not known.all():
         ax.plot(azimuths[~known], np.full((~known).sum(), rim), "x", color=UNKNOWN, clip_on=False,
                 label="no fit: the median is unknown")

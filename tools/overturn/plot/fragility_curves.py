@@ -29,13 +29,14 @@ The curve is fitted to the single points by maximum likelihood. The band is the 
 interval at each value, by bootstrap over the motions. beta is the scatter: the smaller, the better
 the measure predicts the outcome. Points without a verdict (undecided, or not computed yet) are left
 out, counted and reported.
-All blocks are pooled in one curve, unless --by groups them. Rows of a table with the same value in its
+All blocks are pooled in one curve, unless --by groups them or --together joins them. Rows of a table with the same value in its
 column azimuth_of are one block, which falls if it falls in one of them.
 
 --plane draws the fractions in bins of two measures, such as PGA and PGV/PGA, and a logistic fit:
   tools/plot_fragility fragility.h5 --plane          # draws fragility_fragility.png
---polar draws the median of each azimuth of a rock, which is a column of its table or an axis, and marks
-the weakest one.
+Measures may be ratios; both of one definition, such as --im pga_rotd50 pgv_rotd50/pga_rotd50.
+--polar draws the median of each azimuth of one rock, which is a column of its table or an axis, and
+marks the weakest plane, to both sides.
 
 Other choices of blocks, and the numbers as arrays: overturn.fragility() in Python."""
 
@@ -85,8 +86,8 @@ def _legend_beside(panel):
     return legend.get_window_extent() if legend and legend.get_bbox_to_anchor().width == 0 else None
 
 
-def draw_panel(ax, curves):
-    """Draws the curves of one intensity measure, one for each group of blocks."""
+def draw_panel(ax, curves, blocks=""):
+    """Draws the curves of one intensity measure, one for each group of blocks. blocks: all of these, in words."""
     first, is_alone = curves[0], len(curves) == 1
     styles = itertools.product(("-", "--"), zip(COLOURS, MARKERS))
     entries = []
@@ -108,7 +109,7 @@ def draw_panel(ax, curves):
     notes = [escaped(f"{curve.group}: {note}" if curve.group else note) for curve in curves for note in curve.notes]
     ax.set_xlabel("\n".join([measure_text(first.im, first.units),
                              *(line for note in notes for line in textwrap.wrap(note, TEXT_WIDTH))]))
-    ax.set_title("\n".join(wrapped(counts_text(curves), 9, TITLE_WIDTH)), fontsize=9)
+    ax.set_title("\n".join(wrapped(counts_text(curves, blocks), 9, TITLE_WIDTH)), fontsize=9)
     ax.grid(color="0.9")
     ax.set_axisbelow(True)
     if not is_alone:
@@ -123,6 +124,8 @@ def measure_text(im, units):
     """Returns a measure and its unit, or a ratio such as PGV/PGA [m/s/g]."""
     names, units = ("/".join(words.get(each, each) for each in text.split("/"))
                     for words, text in ((NAMES, im), (UNITS, units)))
+    for of in (", RotD50", ", RotD100"):  # of both measures of a ratio, once
+        names = names.replace(of, "", names.count(of) - 1) if names.endswith(of) else names
     return escaped(f"{names} [{units}]")
 
 
@@ -134,7 +137,9 @@ def share_text(curve):
 
 def group_text(curve):
     """Returns the blocks of a group, and the numbers of their curve."""
-    blocks = escaped(f"{shortened(curve.group, 40)} ({counted(curve.blocks, curve.kind)})")
+    is_an_object = curve.blocks == 1 and curve.kind.startswith("objects")
+    count = "" if is_an_object else f" ({counted(curve.blocks, curve.kind)})"
+    blocks = escaped(shortened(curve.group, 40) + count)
     return blocks + f"\n{fit_text(curve)}" * bool(np.isfinite(curve.median))
 
 
@@ -143,15 +148,12 @@ def fit_text(curve):
     return rf"median {curve.median:.3g}{'' if is_within else ' (extrapolated)'}, $\beta$ = {curve.beta:.2f}"
 
 
-def counts_text(curves):
-    motions, blocks = max(curve.motions for curve in curves), sum(curve.blocks for curve in curves)
-    kinds = {curve.kind for curve in curves}
-    kind = kinds.pop() if len(kinds) == 1 else curves[0].kind.partition(" in ")[0]
-    what = f"{counted(motions, 'motions')},  {counted(blocks, kind)}"
+def counts_text(curves, blocks=""):
+    first, motions = curves[0], counted(max(curve.motions for curve in curves), "motions")
     if len(curves) > 1:
-        return what + f",  {len(curves)} groups"
-    how = " together" if curves[0].together else " pooled"
-    return what + how * (blocks > 1) + (f",  {escaped(curves[0].group)}" if curves[0].group else "")
+        return f"{motions},  {blocks},  {len(curves)} groups"
+    how = (" together" if first.together else " pooled") * (first.blocks > 1)
+    return f"{motions},  {counted(first.blocks, first.kind)}{how}" + f",  {escaped(first.group)}" * bool(first.group)
 
 
 def draw_bins(ax, curve, colour, marker, fillstyle, has_spread=True):
@@ -196,7 +198,7 @@ def read_arguments(argv):
     arguments = parse_with_picture(parser, argv, "FILE_fragility.png")
     arguments.im = arguments.im or (["pga", "pgv/pga"] if arguments.plane else ["pgv"])
     if arguments.polar and (arguments.plane or arguments.by):
-        parser.error("--polar has a curve for each azimuth; draw it without --plane and --by")
+        parser.error("--polar has a curve for each azimuth of one object; draw it without --plane and --by")
     if arguments.plane and len(arguments.im) != 2:
         parser.error("--plane needs two measures, such as --im pga pgv/pga")
     if arguments.polar and len(arguments.im) != 1:
@@ -205,29 +207,36 @@ def read_arguments(argv):
 
 
 def compute(arguments):
-    """Returns the title, the azimuths with --polar, and the curves of each measure, one for each group of blocks or
+    """Returns the title, the blocks in words, the azimuths with --polar, and the curves of each measure, one for each group of blocks or
     each azimuth; with --plane, the planes."""
-    import scipy  # noqa: F401 (for overturn.fragility: if it is missing, fail before anything is read)
+    from overturn.fragility_curve import expect_records  # need SciPy: if it is missing, fail before anything is read
+    from overturn.fragility_points import blocks_of
     with open_dataset(arguments.file) as dataset:
-        title = title_of(dataset, arguments)
+        expect_records(dataset)
+        title, objects = title_of(dataset, arguments), blocks_of(dataset)
+        blocks = counted(objects["blocks"], objects["kind"])
         if arguments.plane:
-            return title, None, [curves_of(dataset, arguments, lambda blocks: compute_plane(blocks, arguments))]
+            return title, blocks, None, [curves_of(dataset, arguments, lambda blocks: compute_plane(blocks, arguments))]
+        if arguments.polar and objects["kind"].startswith("objects") and objects["blocks"] > 1:
+            raise ValueError(f"--polar draws the azimuths of one object, but this result has {blocks}. Run a table of "
+                             "each of them.")
         degrees, parts = azimuths_of(dataset, arguments.polar) if arguments.polar else (None, None)
-        return title, degrees, [
+        return title, blocks, degrees, [
             curves_of(dataset, arguments, lambda blocks: compute_curve(blocks, im, arguments), parts)
             for im in arguments.im]
 
 
 def title_of(dataset, arguments):
     name = dataset.attrs.get("title") or f"Fragility: {pathlib.Path(arguments.file).name}"
-    return name + f", by {arguments.by}".replace("_", " ") * bool(arguments.by)
+    by = "object" if arguments.by == "azimuth_of" else arguments.by
+    return name + f", by {by}".replace("_", " ") * bool(by)
 
 
-def draw(by_measure):
-    """Returns a figure with a panel for each measure."""
+def draw(by_measure, blocks):
+    """Returns a figure with a panel for each measure. blocks: of all curves, in words."""
     figure, panels = pyplot.subplots(1, len(by_measure), squeeze=False, sharey=True, layout="constrained",
                                      figsize=(5.5 * len(by_measure), 5.2))
-    make_room([draw_panel(panel, curves) for panel, curves in zip(panels.flat, by_measure)])
+    make_room([draw_panel(panel, curves, blocks) for panel, curves in zip(panels.flat, by_measure)])
     for panel in panels.flat[1:]:
         panel.set_ylabel("")
     return figure
@@ -236,7 +245,7 @@ def draw(by_measure):
 def main(argv=None):
     from overturn.plot import azimuths, fragility_planes  # they import this module
     arguments = read_arguments(argv)
-    title, degrees, by_measure = compute(arguments)
+    title, blocks, degrees, by_measure = compute(arguments)
     for curves in by_measure:
         for number, curve in enumerate(curves, 1):
             print(curve.summary())
@@ -247,7 +256,7 @@ def main(argv=None):
     elif arguments.polar:
         figure = azimuths.fragility_azimuths(degrees, by_measure[0], arguments.polar).figure
     else:
-        figure = draw(by_measure)
+        figure = draw(by_measure, blocks)
     lines = wrapped(plain(title), 12, 0.96 * figure.get_figwidth())
     figure.suptitle("\n".join(lines), fontsize=12, x=0.02, ha="left")
     save(figure, arguments.output, dpi=150)

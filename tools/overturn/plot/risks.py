@@ -142,10 +142,7 @@ def read_arguments(argv):
     parser.add_argument("--survival", type=probability, metavar="P",
                         help="also print the largest factors on the hazard with which the blocks survive these years "
                              "with the probability P")
-    parser.add_argument("--together", metavar="COLUMN",
-                        help="the blocks stand at one site and differ in this column of their table, or along this "
-                             "axis, such as block: the rate at which one of them overturns, and that of each alone")
-    add_curve_arguments(parser, bins=20)
+    add_curve_arguments(parser, 20, "; prints also the rate of each alone")
     parser.add_argument("--csv", metavar="OUT.csv", help="of a list of branches: also write the weights")
     arguments = parse_with_picture(parser, argv, "FILE_risk.png")
     if arguments.years is not None and (arguments.years_interval or arguments.years_samples):
@@ -212,9 +209,9 @@ def compute(arguments):
                             "branches. Omit it.", USAGE)
     with open_dataset(arguments.file) as dataset:
         im = variable_of_ground(dataset.attrs, hazards[0].im)
-        curve = compute_curve(dataset, im, arguments, together=arguments.together)
+        curve = compute_curve(dataset, im, arguments)
         overturn.risk.probability_of(curve)  # refuses what has no rate, before each block alone
-        alone = {name: compute_curve(block, im, arguments, together=arguments.together)
+        alone = {name: compute_curve(block, im, arguments)
                  for name, block in (each_block(dataset, arguments.together).items() if curve.together else ())}
         title = dataset.attrs.get("title") or f"Risk: {pathlib.Path(arguments.file).name}"
         return Site(plain(title), age, hazards, weights, curve, alone if len(alone) > 1 else {})
