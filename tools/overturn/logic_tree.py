@@ -108,7 +108,8 @@ def updated_weights(hazards: Sequence[Hazard], weights: ArrayLike, fragility: Fr
     fragility: of the block, or of several blocks together, see annual_rate().
     years: a number, or a distribution, over which survival is averaged.
 
-    Raises ValueError if the measures or their units differ, or if the curves have no two levels in common.
+    Raises ValueError if the measures or their units differ, if the curves have no two levels in common, or if the
+    fragility pools samples of an object.
     """
     hazards, weights, age = tuple(hazards), np.atleast_1d(numbers("weights", weights)), age_of(years)
     if not hazards or weights.shape != (len(hazards),):

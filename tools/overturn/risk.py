@@ -96,7 +96,7 @@ def annual_rate(hazard: Hazard, fragility: Fragility | Probability, *, edges: Ar
     is an upper bound if lambda, in logarithms, is nowhere steeper to the left of this interval. If it is above
     lambda(first level), the rate is unbounded.
 
-    Raises ValueError if the measures or their units differ.
+    Raises ValueError if the measures or their units differ, or if the fragility pools samples of an object.
     """
     p = rate_integral.in_the_measure_of(hazard, fragility)
     first, last = hazard.level[[0, -1]]

@@ -29,8 +29,8 @@ The curve is fitted to the single points by maximum likelihood. The band is the 
 interval at each value, by bootstrap over the motions. beta is the scatter: the smaller, the better
 the measure predicts the outcome. Points without a verdict (undecided, or not computed yet) are left
 out, counted and reported.
-All blocks are pooled in one curve, unless --by groups them or --together joins them. Rows of a table with the same value in its
-column azimuth_of are one block, which falls if it falls in one of them.
+All blocks are pooled in one curve, unless --by groups them or --together joins them. Rows of a table
+with the same value in its column azimuth_of are one block, which falls if it falls in one of them.
 
 --plane draws the fractions in bins of two measures, such as PGA and PGV/PGA, and a logistic fit:
   tools/plot_fragility fragility.h5 --plane          # draws fragility_fragility.png
