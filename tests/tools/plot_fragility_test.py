@@ -270,7 +270,8 @@ class TestATableOfToCsv(Curve):
         for words, name in ((("--slenderness", "0"), "slenderness"), (("--index", "size=0"), "index"),
                             (("--units", "job"), "units"), (("--events",), "events")):
             self.refuses(2, f"--{name} is not for fragility curves", "result.h5", *words, "--fragility", "pga", tool="to_csv")
-        for words in (("--bins", "3"), ("--by", "size"), ("--friction-demand", "0.4"), ("--above", "0.4")):
+        for words in (("--together", "size"), ("--bins", "3"), ("--by", "size"), ("--friction-demand", "0.4"),
+                      ("--above", "0.4")):
             self.refuses(2, f"{words[0]} is for --fragility MEASURE only", "result.h5", *words, tool="to_csv")
         self.overturn("run", "pulse.h5", job='scene.pulse="one_sine"\n[plane]\nfrequency=3\namplitude=2\nslenderness=0.2\n'
                                              "restitution=0.8\n")

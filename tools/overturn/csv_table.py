@@ -54,7 +54,7 @@ LAST = ((FIELDS, REGION), ({"flip_amplitude", "flip_pga", "region_below", "regio
         (OF_MOTION, "q"), ({f"{name}_{side}" for side in ("before", "after") for name in OF_MOTION}, "q_after"))
 FIRST = {*tables.QUANTITIES, *COUNTED, "crossing", "time", "setting", "frequency_parameter_minus"}
 NUMBER = re.compile("[-+.0-9einfa]*")  # inf and nan, too
-OF_CURVES = {"by", "of", "above", "friction_demand", "bins", "equal_counts", "samples", "seed"}
+OF_CURVES = {"by", "of", "above", "together", "friction_demand", "bins", "equal_counts", "samples", "seed"}
 UNIT = re.compile(r" \[[^]]*\]$")
 
 
