@@ -265,6 +265,7 @@ std::vector<ObjectCase> joined(const std::vector<ObjectCase>& cases,
         }
     }
     std::vector<ObjectCase> all;
+    all.reserve(of_objects.size());
     for (const auto& [key, each] : of_objects) {
         all.push_back(each);
     }
