@@ -17,6 +17,7 @@
 #include "overturn/text/table.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace overturn {
@@ -93,7 +94,7 @@ std::string job_text(const AssessOptions& options)
 }
 
 /// What each row is a part of; empty if each is an object.
-std::vector<PartOfObject> parts_of_objects(const Table& table)
+std::vector<PartOfObject> parts_of_objects(const Table& table, const std::string& file)
 {
     std::vector<PartOfObject> parts;
     const TableColumn* const objects = table.find(column_of_azimuths);
@@ -102,6 +103,13 @@ std::vector<PartOfObject> parts_of_objects(const Table& table)
     std::map<std::string, std::int64_t> numbers;
     for (std::int64_t i = 0; objects != nullptr && i < table.rows(); ++i) {
         const auto row = std::size_t(i);
+        if (objects->texts.empty() ? std::isnan(objects->numbers[row])
+                                   : objects->texts[row].empty()) {
+            throw Error(exit_code::job,
+                        "{}:{}: {} is empty. Give every row the name of the object of which it is "
+                        "an azimuth.",
+                        file, table.lines[row], column_of_azimuths);
+        }
         const std::string sample = samples != nullptr ? text_in(*samples, row) : "";
         parts.push_back({rows.emplace(text_in(*objects, row), i).first->second,
                          numbers.emplace(sample, i).first->second});
@@ -134,7 +142,7 @@ int assess(const AssessOptions& options)
     if (!options.csv.empty()) {
         expect_place_for_answers(options.csv);
     }
-    const std::vector<PartOfObject> parts = parts_of_objects(job.blocks->table);
+    const std::vector<PartOfObject> parts = parts_of_objects(job.blocks->table, options.objects);
     std::optional<Progress> progress;
     const AssessmentQuestion question{.has_strength = options.pga || options.scale,
                                       .pga_max = options.pga_max,

@@ -166,6 +166,11 @@ class Assess(Scratch):
             self.assertIn(f"weakest: {weakest[0][2]}", answer["note"])
         self.assertIsNone(json.loads(found.stdout)["least_widths"])
 
+    def test_refuses_a_row_without_the_object_of_which_it_is_an_azimuth(self):
+        for object_ in ("A", "1"):
+            self.write_table(f"azimuth_of,name,width,height\n{object_},north,0.3,1\n,east,0.4,1\n")
+            self.assert_refused(65, ["objects.csv:3", "azimuth_of is empty"], "assess", "objects.csv", "--period", "0.5")
+
     def test_fine_has_the_ranges_of_topple(self):
         self.write_table(TABLE)
         for motion in (["--period", "0.5"], ["--record", f"{JOBS}/synthetic.AT2"]):
