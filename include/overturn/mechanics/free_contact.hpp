@@ -22,38 +22,69 @@ ContactForce<T> force_on_arc(const ContactSide<T>& side, const T& q, const SineA
                        inertia * (c * (square - c) + 3 * s * s), inertia * s * (square - 4 * c)});
 }
 
+/// The sines of y at which a force normal to the base may be smallest on an arc, |y| < pi/2, if the
+/// base is not level. NaN: there is no such place.
+///
+/// With the angle psi of the base, z = y + psi/2 and a = 2 - q, the derivative of the normal force
+/// is lambda sin z cos z (F(z) - 6),
+///
+///     F(z) = a cos(psi/2) / cos z + a sin(psi/2) / sin z
+///
+/// F is monotonic between -pi/2, 0, pi/2 and its only extreme, tan^3 z = tan(psi/2), so that the
+/// normal force has at most one minimum on either side of both 0 and that extreme.
+template <Number T>
+std::array<T, 2> places_of_least_normal(const ContactSide<T>& side, const T& q, const T& low,
+                                        const T& high)
+{
+    const T half_tangent = side.sine / (1 + side.cosine);
+    T root(1);                 // |tan z|, by square roots, which are the same on all processors
+    constexpr int passes = 26; // each divides the exponent of its error by four
+    for (int i = 0; i < passes; ++i) {
+        root = sqrt(sqrt(abs(half_tangent) * root));
+    }
+    const T tangent = select<T>(half_tangent < 0, -root, root);
+    const T half_cosine = 1 / sqrt(1 + half_tangent * half_tangent);
+    const T level = -half_tangent * half_cosine; // sin y at z = 0
+    const T extreme = (tangent - half_tangent) * half_cosine / sqrt(1 + tangent * tangent);
+    const auto slope_at = [&](const T& sine) -> T {
+        return force_on_arc<T>(side, q, {sine, sqrt(greater<T>(1 - sine * sine, 0))}).normal_slope;
+    };
+    const auto minimum_between = [&](const T& first, const T& last) -> T {
+        const mask_t<T> within = first < last && slope_at(first) < 0 && slope_at(last) > 0;
+        constexpr int most_passes = 16;
+        return select<T>(within, root_between<T>(first, last, within, slope_at, most_passes),
+                         T(std::numeric_limits<scalar_t<T>>::quiet_NaN()));
+    };
+    return {minimum_between(low, lesser<T>(high, lesser<T>(level, extreme))),
+            minimum_between(greater<T>(low, greater<T>(level, extreme)), high)};
+}
+
 /// What the contact must bear on an arc between two places, |y| < pi/2.
 ///
-/// With a = 2 - q and x = cos y, on a level base the vertical force has its extremes at y = 0 and
-/// x = a/6, and on any base the friction has them where
+/// With a = 2 - q and x = cos y, the vertical force has its extremes at y = 0 and x = a/6. The
+/// friction has them on any base, whose angle is a rotation of the force, where
 ///
 ///     (6 + 3 lambda) x^2 - a (1 + 5 lambda) x - 3 (1 - lambda) + lambda a^2 = 0
 template <Number T>
 ContactDemand<T> demand_on_arc(const ContactSide<T>& side, const T& q, const SineAndCosine<T>& low,
                                const SineAndCosine<T>& high)
 {
-    const auto force_at = [&](const T& sine) {
-        return force_on_arc<T>(side, q, {sine, sqrt(greater<T>(1 - sine * sine, 0))});
-    };
-    if (any<T>(side.sine != 0)) {
-        constexpr int parts = 16;
-        return demand_between<T>(low.sine, high.sine, parts, force_at);
-    }
     ContactDemand<T> demand = demand_of(force_on_arc(side, q, low));
     const mask_t<T> all = q == q;
     demand.include(demand_of(force_on_arc(side, q, high)), all);
-    const auto see = [&](const T& sine) {
-        const mask_t<T> within = low.sine < sine && sine < high.sine;
+    const auto see = [&](const T& sine, const mask_t<T>& lanes) {
+        const mask_t<T> within = lanes && low.sine < sine && sine < high.sine; // NaN is nowhere
         if (any<T>(within)) {
-            demand.include(demand_of(force_at(sine)), within);
+            const T cosine = sqrt(greater<T>(1 - sine * sine, 0));
+            demand.include(demand_of(force_on_arc<T>(side, q, {sine, cosine})), within);
         }
     };
-    const auto include_both = [&](const T& cosine) { // NaN is nowhere
+    const auto include_both = [&](const T& cosine) {
         const T sine = sqrt(1 - cosine * cosine);
-        see(sine);
-        see(-sine);
+        see(sine, all);
+        see(-sine, all);
     };
-    see(T(0));
+    see(T(0), all);
     const T a = 2 - q;
     const T& inertia = side.inertia;
     include_both(a * T(scalar_t<T>(1) / 6));
@@ -62,6 +93,12 @@ ContactDemand<T> demand_on_arc(const ContactSide<T>& side, const T& q, const Sin
     const T root = sqrt(half * half + square * (3 * (1 - inertia) - inertia * a * a));
     include_both((half + root) / square);
     include_both((half - root) / square);
+    const mask_t<T> sloped = side.sine != 0;
+    if (any<T>(sloped)) {
+        for (const T& sine : places_of_least_normal(side, q, low.sine, high.sine)) {
+            see(sine, sloped);
+        }
+    }
     return demand;
 }
 

@@ -40,6 +40,14 @@ struct ObservedStep {
     TiltAt tilt_at;
 };
 
+/// A function at a place, with the derivative or its sign.
+template <Number T>
+struct FunctionSample {
+    T place;
+    T value;
+    T slope;
+};
+
 /// Follows the contact. A block beyond alpha that does not come back has overturned, so that what
 /// its contact bears there counts only once it comes back.
 template <Number T>
