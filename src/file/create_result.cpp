@@ -74,9 +74,13 @@ void write_field_attributes(hid_t dataset, Field field, const Problem& problem,
     write_attribute(dataset, "units", traits.units);
     // Readers interpret NaN as missing, so it can be declared; a fill value declared on an integer
     // field would make them convert codes to floats.
-    if (traits.type == FieldType::float64) {
-        write_attribute(dataset, "_FillValue", std::numeric_limits<double>::quiet_NaN());
-    }
+    std::visit(
+        [&]<class Value>(Value value) {
+            if constexpr (std::floating_point<Value>) {
+                write_attribute(dataset, "_FillValue", value);
+            }
+        },
+        fill_value(field));
     if (field == Field::flip_amplitude || field == Field::flip_value) {
         const FlipSearch search = flip_search(scene, problem.grid.may_slip());
         write_attribute(dataset, "width", search.flip_width);

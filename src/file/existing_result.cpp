@@ -5,6 +5,7 @@
 
 #include "overturn/file/provenance.hpp"
 #include "overturn/text/error.hpp"
+#include "overturn/text/mapped.hpp"
 
 #include <fmt/ranges.h>
 
@@ -52,6 +53,7 @@ void expect_result_of(const Job& job, const std::optional<JobPart>& part,
     }
     if (tiles.tile_shape != tiling.tile_shape() || tiles.tiles_of_job != tiling.size() ||
         tiles.fields != problem.fields ||
+        mapped(tiles.fields, &Field::precision) != mapped(problem.fields, &Field::precision) ||
         !std::ranges::equal(tiles.axes, stored_dimensions(problem), {}, &AxisSummary::name,
                             &StoredDimension::name)) {
         refuse("is damaged: its fields or tiles do not match its job. Remove it, or choose another "

@@ -96,6 +96,7 @@ struct Type {
     static Type of(std::uint32_t) { return {H5T_STD_U32LE, H5T_NATIVE_UINT32}; }
     static Type of(std::uint64_t) { return {H5T_STD_U64LE, H5T_NATIVE_UINT64}; }
     static Type of(std::int64_t) { return {H5T_STD_I64LE, H5T_NATIVE_INT64}; }
+    static Type of(float) { return {H5T_IEEE_F32LE, H5T_NATIVE_FLOAT}; }
     static Type of(double) { return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE}; }
 };
 

@@ -85,6 +85,15 @@ std::string stored_name(Field field, std::int64_t format)
                : std::string(name_of(field));
 }
 
+/// The precision in which a field is stored; that of its type if there is no such choice.
+Precision stored_precision(hid_t file, const std::string& name, const FieldTraits& traits)
+{
+    return traits.type == FieldType::float64 &&
+                   has_type(open_own_dataset(file, name), hdf5::Type::of(float()))
+               ? Precision::single_precision
+               : Precision::double_precision;
+}
+
 /// The fields in the order of their creation, which is that of the job.
 std::vector<Field> read_fields(hid_t file)
 {
@@ -99,7 +108,7 @@ std::vector<Field> read_fields(hid_t file)
         name.resize(std::min(std::size_t(length), name.size()));
         for (const FieldTraits& each : all_fields()) {
             if (stored_name({each.name}, format) == name) {
-                fields.push_back({each.name});
+                fields.push_back({each.name, stored_precision(file, name, each)});
             }
         }
     }

@@ -1,6 +1,7 @@
 #include "read_steps.hpp"
 
 #include "overturn/problem/coordinates.hpp"
+#include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
 
 namespace overturn {
@@ -119,11 +120,14 @@ std::string resolved_text(const Job& job)
         const Numerics& numerics = problem.numerics;
         const auto audit = problem.product.audit();
         text += fmt::format(
-            "\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n{}{}\n[output]\nfields = {}\n",
+            "\n[numerics]\nmethod = \"{}\"\ntolerance = {}\n{}{}\n[output]\nfields = {}\n{}",
             name_of(numerics.method), float_text(numerics.tolerance),
             numerics.resolve ? "resolve = true\n" : "",
             audit ? fmt::format("fill = true\naudit = {}\n", float_text(*audit)) : "",
-            list_text(fields, [](Field field) { return in_quotes(name_of(field)); }));
+            list_text(fields, [](Field field) { return in_quotes(name_of(field)); }),
+            is_one_of(Precision::single_precision, mapped(fields, &Field::precision))
+                ? fmt::format("precision = {}\n", in_quotes(name_of(Precision::single_precision)))
+                : "");
     }
     return text;
 }

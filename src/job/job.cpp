@@ -128,10 +128,10 @@ const Quantity* read_along(const Entry& job)
     return along.role == Role::strength ? nullptr : &along;
 }
 
-/// Reads [output].
-std::vector<Field> read_fields(const Entry& job)
+/// Reads output.fields.
+std::vector<Field> read_field_names(const Entry& output)
 {
-    const auto entry = find(table_of(job, "output"), "fields");
+    const auto entry = find(output, "fields");
     if (!entry) {
         return default_fields;
     }
@@ -148,6 +148,20 @@ std::vector<Field> read_fields(const Entry& job)
                    name_of(field));
         }
         fields.push_back(field);
+    }
+    return fields;
+}
+
+/// Reads [output].
+std::vector<Field> read_fields(const Entry& job)
+{
+    const Entry entry = table_of(job, "output");
+    std::vector<Field> fields = read_field_names(entry);
+    const Precision precision = choice_of(entry, "precision", Precision::double_precision);
+    for (Field& field : fields) {
+        if (traits_of(field).type == FieldType::float64) {
+            field.precision = precision;
+        }
     }
     return fields;
 }

@@ -106,6 +106,9 @@ std::vector<Key> keys_with_one_value()
          fmt::format("[{}]", words(mapped(default_fields, &Field::name))),
          "what is stored; other fields are not computed",
          words(mapped(spectrum_fields(), &Field::name))},
+        {"output", "precision", always, "string", in_quotes(name_of(Precision::double_precision)),
+         "of the fields that are floating-point numbers: 4 or 8 bytes per value; coordinates and "
+         "flips are always double", words(names_of<Precision>)},
         {"boundary", "along", always, "string", "the strength",
          "the quantity along which overturn boundary searches for flips; other commands ignore it",
          words(scanned_quantities())}};

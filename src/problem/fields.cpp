@@ -2,9 +2,11 @@
 
 #include "overturn/mechanics/free_rocking.hpp"
 #include "overturn/sweep/outcome.hpp"
+#include "overturn/text/mapped.hpp"
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 namespace overturn {
@@ -245,7 +247,7 @@ std::vector<Field> spectrum_fields()
     return of_points;
 }
 
-std::variant<std::uint8_t, std::uint16_t, std::uint32_t, double> fill_value(Field field)
+std::variant<std::uint8_t, std::uint16_t, std::uint32_t, double, float> fill_value(Field field)
 {
     switch (traits_of(field).type) {
     case FieldType::uint8:
@@ -256,7 +258,10 @@ std::variant<std::uint8_t, std::uint16_t, std::uint32_t, double> fill_value(Fiel
     case FieldType::uint32: return step_count::not_computed;
     case FieldType::float64: break;
     }
-    return std::numeric_limits<double>::quiet_NaN();
+    if (field.precision == Precision::single_precision) {
+        return std::numeric_limits<float>::quiet_NaN();
+    }
+    return unknown;
 }
 
 FieldValues not_computed(Field field, std::int64_t points)
@@ -264,6 +269,31 @@ FieldValues not_computed(Field field, std::int64_t points)
     return std::visit(
         [&](auto value) { return FieldValues(std::vector(std::size_t(points), value)); },
         fill_value(field));
+}
+
+float in_single_precision(double value)
+{
+    if (!std::isfinite(value)) {
+        return float(value);
+    }
+    constexpr double largest = std::numeric_limits<float>::max();
+    const auto nearest = float(std::clamp(value, -largest, largest));
+    for (const float limit : {0.0F, 1.0F}) {
+        if (nearest == limit && value != limit) {
+            return std::nextafter(limit, float(value > limit ? infinity : -infinity));
+        }
+    }
+    return nearest;
+}
+
+FieldValues as_stored(Field field, FieldValues computed)
+{
+    if (field.precision == Precision::single_precision) {
+        if (const auto* numbers = std::get_if<std::vector<double>>(&computed)) {
+            return mapped(*numbers, in_single_precision);
+        }
+    }
+    return computed;
 }
 
 std::size_t bytes_per_point(Field field)

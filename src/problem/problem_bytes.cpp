@@ -64,8 +64,8 @@ struct Archive {
     void transfer(Field& field)
     {
         std::ptrdiff_t number = is_input ? 0 : &traits_of(field) - all_fields().data();
-        transfer(number);
-        field = {all_fields()[std::size_t(number)].name};
+        transfer_all(number, field.precision);
+        field.name = all_fields()[std::size_t(number)].name;
     }
 
     void transfer(Dimension& dimension) { transfer_all(dimension.name, dimension.columns); }

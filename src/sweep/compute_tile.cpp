@@ -22,9 +22,9 @@ namespace {
 /// A field of a spectrum that is not filled.
 FieldValues values_of(Field field, const PointRun& points, const Outcomes& outcomes)
 {
-    FieldValues computed = not_computed(field, points.size());
+    FieldValues computed = not_computed({field.name}, points.size());
     traits_of(field).value.everywhere({points, outcomes.of_points.get()}, computed);
-    return computed;
+    return as_stored(field, std::move(computed));
 }
 
 /// What the fields of a spectrum need of the integration.

@@ -88,6 +88,45 @@ class MergedParts(ScratchWithParts):
                     (self.folder / name).unlink()
 
 
+class InSinglePrecision(ScratchWithParts):
+    """The fields that are numbers; of runs, parts, ranks and kernels, the bytes are the same."""
+
+    JOB = [*ScratchWithParts.JOB, "--set", 'output.precision="single"']
+
+    def test_values_are_those_in_double_precision_rounded(self):
+        self.assert_exit(self.overturn(*ScratchWithParts.JOB, "-o", "double.h5"), 0)
+        self.assert_exit(self.overturn("verify", "whole.h5"), 0, "24 of 24 tiles are done")
+        with h5py.File(self.folder / "whole.h5") as single, h5py.File(self.folder / "double.h5") as double:
+            for name in ("region", "angle", "velocity", "margin", "impacts", "status"):
+                is_number = name in ("angle", "velocity", "margin")
+                self.assertEqual(single[name].dtype, np.float32 if is_number else double[name].dtype)
+                rounded = double[name][:].astype(single[name].dtype)
+                np.testing.assert_array_equal(single[name][:], rounded)
+            self.assertEqual(single["margin"].attrs["_FillValue"].dtype, np.float32)
+            for name in ("frequency", "amplitude"):
+                self.assertEqual(single[name].dtype, np.float64)
+
+    def test_parts_of_any_ranks_and_kernels_are_merged_to_the_bytes_of_one_run(self):
+        for number, (ranks, kernel) in enumerate([(None, "double"), (2, "avx2"), (3, "auto")], 1):
+            self.assert_exit(self.overturn(*self.JOB, "--part", f"{number}/3", "-o", f"{number}.h5", "--kernel", kernel,
+                                           ranks=ranks), 0)
+        self.assert_merged(["1.h5", "2.h5", "3.h5"])
+
+    def test_continues_no_file_of_another_precision(self):
+        self.assert_exit(self.overturn(*ScratchWithParts.JOB, "-o", "whole.h5"), 74, "belongs to another job",
+                         'precision = "single"')
+
+    def test_of_a_boundary_is_double(self):
+        few = ["--set=plane.frequency.count=2", "--set=plane.amplitude.count=3"]
+        self.assert_exit(self.overturn("boundary", *self.JOB[1:], *few, "-o", "boundary.h5"), 0)
+        with h5py.File(self.folder / "boundary.h5") as file:
+            self.assertEqual(file["flip_amplitude"].dtype, np.float64)
+
+    def test_of_another_name_is_refused(self):
+        self.assert_exit(self.overturn("check", "small.toml", "--set", 'output.precision="half"'), 65,
+                         'output.precision = "half" is unknown. Allowed: single, double.')
+
+
 class APart(ScratchWithParts):
     def test_is_an_unfinished_result_that_says_which_part_it_is(self):
         self.have_part(3, 16)

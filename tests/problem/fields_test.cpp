@@ -1,8 +1,13 @@
 #include "overturn/problem/fields.hpp"
 
+#include "support/special_values.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
 #include <set>
 
 namespace overturn {
@@ -53,6 +58,56 @@ TEST(Fields, HaveArraysOfTheirType)
         std::visit([](const auto& values) { EXPECT_EQ(values.size(), 3u); },
                    not_computed(field, 3));
     }
+}
+
+TEST(Fields, AreStoredInSinglePrecisionIfTheyAreNumbers)
+{
+    const Field single{"margin", Precision::single_precision};
+    EXPECT_EQ(single, Field::margin);
+    EXPECT_EQ(bytes_per_point(single), 4u);
+    EXPECT_TRUE(std::holds_alternative<std::vector<float>>(not_computed(single, 3)));
+    EXPECT_TRUE(std::isnan(std::get<float>(fill_value(single))));
+    const std::vector<double> values{0.1, -infinity};
+    EXPECT_EQ(std::get<std::vector<float>>(as_stored(single, values)),
+              (std::vector<float>{0.1F, float(-infinity)}));
+    EXPECT_EQ(as_stored(Field::margin, values), FieldValues(values));
+    const std::vector<std::uint8_t> codes{1, 255};
+    EXPECT_EQ(as_stored({"region", Precision::single_precision}, codes), FieldValues(codes));
+}
+
+TEST(SinglePrecision, IsTheNearestFloat)
+{
+    std::mt19937_64 generator(1);
+    for (int i = 0; i < 100'000; ++i) {
+        const double value =
+            std::ldexp(std::uniform_real_distribution(-1.0, 1.0)(generator), i % 60);
+        EXPECT_LE(std::abs(in_single_precision(value) - value), 0x1p-24 * std::abs(value));
+        const float exact = float(value);
+        EXPECT_EQ(in_single_precision(exact), exact);
+    }
+}
+
+TEST(SinglePrecision, KeepsTheSideOfZeroAndOne)
+{
+    const double tiny = std::numeric_limits<double>::denorm_min();
+    EXPECT_GT(in_single_precision(tiny), 0.0F);
+    EXPECT_LT(in_single_precision(-tiny), 0.0F);
+    EXPECT_EQ(in_single_precision(0.0), 0.0F);
+    EXPECT_EQ(in_single_precision(1.0), 1.0F);
+    EXPECT_LT(in_single_precision(1 - epsilon / 2), 1.0F);
+    EXPECT_GT(in_single_precision(1 + epsilon), 1.0F);
+    EXPECT_EQ(in_single_precision(1 + 0x1p-23), float(1 + 0x1p-23));
+}
+
+TEST(SinglePrecision, KeepsWhatIsFiniteInfiniteOrUnknown)
+{
+    constexpr double largest = std::numeric_limits<float>::max();
+    EXPECT_EQ(in_single_precision(std::numeric_limits<double>::max()), largest);
+    EXPECT_EQ(in_single_precision(-1e39), -largest);
+    EXPECT_EQ(in_single_precision(std::nextafter(largest, infinity)), largest);
+    EXPECT_EQ(in_single_precision(infinity), infinity);
+    EXPECT_EQ(in_single_precision(-infinity), -infinity);
+    EXPECT_TRUE(std::isnan(in_single_precision(std::nan(""))));
 }
 
 TEST(Fields, HaveUnitsOrCodes)

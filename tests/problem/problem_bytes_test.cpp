@@ -2,6 +2,7 @@
 
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/problem/pulse_table.hpp"
+#include "overturn/text/mapped.hpp"
 #include "support/given_values.hpp"
 #include "support/short_records.hpp"
 
@@ -39,7 +40,7 @@ std::vector<Problem> every_problem()
         {.scene = pulse_scene,
          .grid = grid_of(pulse_scene, pulse),
          .numerics = {.method = Method::taylor, .tolerance = 1e-6, .resolve = true},
-         .fields = {Field::margin, Field::region}},
+         .fields = {{"margin", Precision::single_precision}, Field::region}},
         {.scene = {},
          .grid = grid_of({}, pulse),
          .product = FilledSpectrum{{}, 0.25},
@@ -124,6 +125,8 @@ TEST(ProblemBytes, KeepEverything)
         EXPECT_EQ(received.product.audit(), problem.product.audit());
         EXPECT_EQ(received.product, problem.product);
         EXPECT_EQ(received.fields, problem.fields);
+        EXPECT_EQ(mapped(received.fields, &Field::precision),
+                  mapped(problem.fields, &Field::precision));
         EXPECT_EQ(stored_shape(received), stored_shape(problem));
         EXPECT_EQ(tiling_of(received).tile_shape(), tiling_of(problem).tile_shape());
         EXPECT_EQ(received.grid.table() != nullptr, problem.grid.table() != nullptr);

@@ -3,13 +3,16 @@
 
     scale.py [FOLDER] [--part PART] [--points-per-side N] [--more-points-per-side N] [--ranks N] [--seed N]
 
-    ranks    64 ranks on this machine's cores: the same bytes as one rank, also stopped and resumed, and
-             in 16 parts
+    ranks    64 ranks on this machine's cores: the same bytes as one rank, also stopped and resumed
+    bytes    the same bytes on 1, 2, 3, 8 and 64 ranks, in 1, 3 and 16 parts, and by all kernels, in
+             single and in double precision
     points   10^9 points, stopped once and a rank killed once: bounded memory and correct values
-    beyond   the last tiles of a plane of more than 2^32 points, and one of 1000 parts of it
+    beyond   the last tiles of a plane of more than 2^32 points, and one of 1000 parts of it in single
+             precision
+    merged   two parts of as many points, filled: the same bytes as one run
 
 Files are created in a subfolder of FOLDER (or $TMPDIR, or the current folder), which is removed at
-the end; the largest takes 4.4 GB. Requires OVERTURN and MPIEXEC in the environment."""
+the end; they take 4.4 GB, and 18 GB in the part `merged`. Requires OVERTURN and MPIEXEC in the environment."""
 
 import argparse
 import ctypes
@@ -25,14 +28,14 @@ import tempfile
 import h5py
 import numpy as np
 
-from plane import (CHEAP, CORES, COSTLY, MIB, SIDE, Command, Failure, Plane, demand,
+from plane import (CHEAP, CORES, COSTLY, MIB, SINGLE, Command, Failure, Plane, demand,
                    demand_little_memory, digest, human, resume, say, verify)
 
 
 # Part 1
 
 def many_ranks(folder, options, chance):
-    """64 ranks, uninterrupted or stopped and resumed, and 16 parts must give the same bytes as one rank."""
+    """64 ranks, uninterrupted or stopped and resumed, must give the same bytes as one rank."""
     # The work grows with the cores: a signal has to arrive during the run.
     plane = Plane(folder, "ranks", 1250 * max(1, CORES // 4), 1270, COSTLY)
     alone = folder / "alone.h5"
@@ -54,20 +57,44 @@ def many_ranks(folder, options, chance):
     resume(plane, 3).must_end_with(0)
     verify(plane)
     demand(digest(plane.file) == digest(alone), "bytes differ after it was stopped and resumed")
-
-    say("in 16 parts on 1, 2 and 3 ranks, merged")
-    parts = [folder / f"{number}.h5" for number in range(1, 17)]
-    for number, part in enumerate(parts, 1):
-        arguments = ["run", plane.job, "--part", f"{number}/16", "-o", part]
-        Command(folder, arguments, (None, 2, 3)[number % 3]).must_end_with(0)
-    merged = Command(folder, ["merge", *parts, "-o", folder / "merged.h5"]).must_end_with(0)
-    demand(digest(folder / "merged.h5") == digest(alone), "bytes differ in parts")
-    memory = demand_little_memory(plane, whole, stopped, merged)
-    return (f"{options.ranks} ranks on {CORES} cores, {plane.tiles} tiles; whole, stopped at {there} tiles and "
-            f"resumed on 3 ranks, and in 16 parts | 0 bytes differ from one rank's, at most {memory} per rank")
+    memory = demand_little_memory(plane, whole, stopped)
+    return (f"{options.ranks} ranks on {CORES} cores, {plane.tiles} tiles; whole, and stopped at {there} tiles and "
+            f"resumed on 3 ranks | 0 bytes differ from one rank's, at most {memory} per rank")
 
 
 # Part 2
+
+def equal_bytes(folder, options, chance):
+    """Ranks, parts and kernels must not change a byte, in either precision."""
+    doctor = Command(folder, ["doctor"]).must_end_with(0).words()
+    kernels = re.findall(r"(\w+): yes", re.search(r"kernels .* MPI ", doctor)[0])
+    compared = 0
+    for precision in ("double", "single"):
+        plane = Plane(folder, precision, 300, 520, {**COSTLY, "precision": precision})
+        plane.run(None).must_end_with(0)
+        expected = digest(plane.file)
+        say(f"{plane} in {plane.tiles} tiles, {precision} precision: ranks, kernels and parts")
+        for kernel, ranks in [("auto", 2), ("auto", 3), ("auto", 8), ("auto", options.ranks),
+                              *((kernel, None) for kernel in kernels)]:
+            other = folder / f"{precision}_{kernel}_{ranks}.h5"
+            Command(folder, ["run", plane.job, "--kernel", kernel, "-o", other], ranks).must_end_with(0)
+            demand(digest(other) == expected, f"bytes differ: {other.name}")
+            compared += 1
+        for count in (1, 3, 16):
+            parts = [folder / f"{precision}_{number}_of_{count}.h5" for number in range(1, count + 1)]
+            for number, part in enumerate(parts, 1):
+                arguments = ["run", plane.job, "--part", f"{number}/{count}", "-o", part]
+                arguments += ["--kernel", kernels[number % len(kernels)]]
+                Command(folder, arguments, (None, 2, 3)[number % 3]).must_end_with(0)
+            merged = folder / f"{precision}_{count}.h5"
+            Command(folder, ["merge", *parts, "-o", merged]).must_end_with(0)
+            demand(digest(merged) == expected, f"bytes differ: {count} parts, {precision} precision")
+            compared += 1
+    return (f"{plane.tiles} tiles on 1, 2, 3, 8 and {options.ranks} ranks, in 1, 3 and 16 parts, by the kernels "
+            f"{', '.join(kernels)}, in single and double precision | 0 bytes of {compared} files differ")
+
+
+# Part 3
 
 def many_points(folder, options, chance):
     """A plane that is stopped once and killed once: bounded memory and correct values."""
@@ -100,7 +127,7 @@ def many_points(folder, options, chance):
             f"points equal when computed separately")
 
 
-# Part 3
+# Part 4
 
 def beyond_32_bits(folder, options, chance):
     """Stops a run at its beginning, marks most missing tiles as done, and computes the last
@@ -134,13 +161,13 @@ def beyond_32_bits(folder, options, chance):
     of_part = one_part(folder, side, chance)
     memory, of_verify = demand_little_memory(plane, first, last, of_part), demand_little_memory(plane, checked)
     return (f"{plane} ({human(plane.points)}) in {plane.tiles} tiles, the first {len(beginning)}, the last, and "
-            f"a part of 1000 | equal when computed separately, nothing else changed; {memory} per rank, "
-            f"{of_verify} to verify")
+            f"a part of 1000 in single precision | equal when computed separately, nothing else changed; {memory} "
+            f"per rank, {of_verify} to verify")
 
 
 def one_part(folder, side, chance):
     """Computes one of 1000 parts of a plane; its file is smaller than its fields."""
-    part = Plane(folder, "part", side, side, CHEAP)
+    part = Plane(folder, "part", side, side, SINGLE)
     run = Command(folder, ["run", part.job, "--part", "500/1000", "-o", part.file], CORES).must_end_with(0)
     tiles = np.flatnonzero(part.marks()).tolist()
     demand(len(tiles) in (part.tiles // 1000, part.tiles // 1000 + 1), f"a part has {len(tiles)} tiles")
@@ -193,14 +220,37 @@ def places_in_file(plane, tiles):
             [(chunk.byte_offset, chunk.size) for chunk in chunks])
 
 
-PARTS = {"ranks": many_ranks, "points": many_points, "beyond": beyond_32_bits}
+# Part 5
+
+def merged_parts(folder, options, chance):
+    """Merges two parts of more than 2^32 points, on any number of ranks, to the file of one run."""
+    side = options.more_points_per_side
+    plane = Plane(folder, "merged", side, side, CHEAP)
+    filled = ["run", plane.job, "--set", "numerics.fill=true"]
+    say(f"{plane}, filled, on {CORES} ranks")
+    Command(folder, [*filled, "-o", plane.file], CORES).must_end_with(0)
+    expected = digest(plane.file)
+    plane.file.unlink()
+    parts = [folder / f"part{number}.h5" for number in (1, 2)]
+    for number, part in enumerate(parts, 1):
+        say(f"part {number} of 2")
+        Command(folder, [*filled, "--part", f"{number}/2", "-o", part], (None, CORES)[number % 2]).must_end_with(0)
+    say("merging both")
+    merge = Command(folder, ["merge", *parts, "-o", plane.file]).must_end_with(0)
+    demand(digest(plane.file) == expected, "the merged file differs from that of one run")
+    return (f"{plane} ({human(plane.points)}), filled, in two parts, merged | 0 bytes differ from one run's; "
+            f"{demand_little_memory(plane, merge)} to merge")
+
+
+PARTS = {"ranks": many_ranks, "bytes": equal_bytes, "points": many_points, "beyond": beyond_32_bits,
+         "merged": merged_parts}
 
 
 def demand_room(folder, options):
-    """Checks the disk space for the largest file: slightly more than a byte per point."""
-    sides = {"points": options.points_per_side, "beyond": options.more_points_per_side}
-    largest = max(sides.get(part, 0) for part in options.part)
-    needed = 1.1 * (largest + SIDE) ** 2 + 200 * MIB
+    """Checks the disk space for the largest files: slightly more than a byte per point, or four."""
+    points = {"points": options.points_per_side**2, "beyond": options.more_points_per_side**2,
+              "merged": 4 * options.more_points_per_side**2}
+    needed = 1.1 * max(points.get(part, 0) for part in options.part) + 200 * MIB
     free = shutil.disk_usage(folder).free
     if free < needed:
         sys.exit(f"scale.py: {folder} has {free / 1e9:.1f} GB free, and {needed / 1e9:.1f} GB are needed: "

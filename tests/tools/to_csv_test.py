@@ -122,6 +122,16 @@ class TestATableOfASpectrum(Table):
         for name in ("friction", "pga", "region", "slide", "slide_peak", "status"):
             self.assertEqual([row[name] for row in listed], [row[name] for row in rows])
 
+    def test_of_numbers_in_single_precision_has_their_digits(self):
+        subprocess.run([os.environ["OVERTURN"], "run", JOBS / "smoke.toml", "-o", "single.h5", "--set",
+                        'output.precision="single"'], cwd=self.folder, check=True, capture_output=True)
+        rows = self.rows("single.h5")
+        with h5py.File(self.folder / "single.h5") as file:
+            stored = file["margin"][:].ravel()
+        self.assertEqual(stored.dtype, np.float32)
+        np.testing.assert_array_equal(np.array([row["margin"] for row in rows], np.float32), stored)
+        self.assertLess(max(len(row["margin"]) for row in rows), 16)  # -1.2345678e-10
+
     def test_chooses_a_restitution_in_every_spelling(self):
         for name in ("restitution", "restitution_of_maximum", "velocity_restitution"):
             self.overturn("run", f"{name}.h5", "plane.pga.count=2", "plane.pulse_period.count=2",

@@ -124,8 +124,13 @@ def rows_of(file, choices, units):
             columns_of = dict(zip(names, columns))
             flips = next(columns_of[name] for name in ("flip_amplitude", "flip_value") if name in columns_of)
             kept = np.isfinite(flips) | (columns_of["crossing"] == 0)
-        yield from zip(*((column[kept].astype(int) if name in integers else column[kept]).tolist()
+        yield from zip(*(in_digits(column[kept].astype(int) if name in integers else column[kept])
                          for name, column in zip(names, columns)))
+
+
+def in_digits(values):
+    """Returns a list of values, each written with the digits of its precision."""
+    return list(values) if values.dtype == np.float32 else values.tolist()
 
 
 def rows_of_study(file, units):

@@ -17,11 +17,19 @@ namespace overturn {
 struct EndOfPoint;
 struct EndsOfPoints;
 
-/// The name of a field.
+/// Of the fields that are floating-point numbers: float32 or float64.
+enum class Precision { single_precision, double_precision };
+
+template <>
+inline constexpr std::array<std::string_view, 2> names_of<Precision>{"single", "double"};
+
+/// The name of a field, and how its floating-point numbers are stored.
 struct Field {
     std::string_view name;
+    Precision precision = Precision::double_precision;
 
-    bool operator==(const Field&) const = default;
+    /// Whether it is the same field, in any precision.
+    bool operator==(const Field& other) const { return name == other.name; }
 
     /// Those that are known by name outside their row.
     static const Field region, angle, velocity, margin, error, peak, fall_time, friction_demand,
@@ -62,10 +70,11 @@ enum class FieldOf {
 };
 
 /// The values of one field in one tile, row by row.
-using FieldValues = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>,
-                                 std::vector<std::uint32_t>, std::vector<double>>;
+using FieldValues =
+    std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<std::uint32_t>,
+                 std::vector<double>, std::vector<float>>;
 
-/// The types of a value, in the order of FieldValues.
+/// The types of a value as it is computed.
 enum class FieldType { uint8, uint16, uint32, float64 };
 
 template <>
@@ -115,13 +124,20 @@ inline std::string_view name_of(Field field)
     return field.name;
 }
 
-/// The value of a point that is not computed yet, in the type of the field.
-std::variant<std::uint8_t, std::uint16_t, std::uint32_t, double> fill_value(Field field);
+/// The value of a point that is not computed yet, in the type in which it is stored.
+std::variant<std::uint8_t, std::uint16_t, std::uint32_t, double, float> fill_value(Field field);
 
 /// This value for `points` points.
 FieldValues not_computed(Field field, std::int64_t points);
 
-/// Size of one value of the field [bytes].
+/// The float next to a number, and on the same side of 0 and of 1: neither the verdict of a margin
+/// nor that of a peak changes. Finite numbers stay finite.
+float in_single_precision(double value);
+
+/// Values as they are computed, in the type in which they are stored.
+FieldValues as_stored(Field field, FieldValues computed);
+
+/// Size of one stored value of the field [bytes].
 std::size_t bytes_per_point(Field field);
 
 /// Flags of the field status; 0 for a point that was computed without incident.
