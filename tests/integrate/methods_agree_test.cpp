@@ -59,7 +59,7 @@ TEST(Methods, AgreeWithFiftyDigitsWithinTheirTolerances)
 {
     std::mt19937_64 generator(5);
     for_every_scene([&]<Theory theory>(PulseKind pulse) {
-        for (int i = 0; i < 25; ++i) {
+        for (int i = 0; i < 15; ++i) {
             const PulsePoint<double> point = random_point(generator);
             const auto exact = forced_end<theory>(pulse, in_digits(point), reference_tolerance);
             const double amplification = 1 + sensitivity<theory>(pulse, point, exact);
