@@ -104,6 +104,8 @@ constexpr double seconds_alone = 0.03;
 constexpr double seconds_under_mpirun = 0.2;
 
 constexpr double answer_seconds = 2e-6; // 0.5 to 1.7 us were measured on one host
+constexpr double take_seconds = 1e-7;
+constexpr int assumed_ranks_of_host = 128;
 
 /// The time to write a tile [s]: for each field and the checksum a call, and a copy in memory.
 double write_seconds(const Problem& problem)
@@ -133,11 +135,10 @@ double memory_of_libraries(const Problem& problem, int ranks, std::int64_t tiles
 {
     constexpr double mpi = 12e6;
     constexpr double per_rank_of_host = 9e4;
-    constexpr int most_ranks_of_host = 128;
     constexpr double per_chunk = 265;
     constexpr double most_of_chunks = 25e6; // the size of the cache of HDF5
     const double chunks = double(tiles) * double(problem.fields.size());
-    return mpi + per_rank_of_host * std::min(ranks, most_ranks_of_host) +
+    return mpi + per_rank_of_host * std::min(ranks, assumed_ranks_of_host) +
            std::min(per_chunk * chunks, most_of_chunks);
 }
 
@@ -168,9 +169,10 @@ RunEstimate estimate_run(const Job& job, Kernel kernel, int ranks, double readin
     estimate.creation_speed = speed_of_creation_in(folder, most_written);
     estimate.creation_seconds = estimate.creation_speed ? bytes / *estimate.creation_speed : 0;
     const FarmCosts costs{.answer = answer_seconds,
+                          .take = take_seconds,
                           .tile = estimate.sample.mean + write_seconds(job.problem),
                           .spread = estimate.sample.spread};
-    estimate.farm = simulate_farm(costs, ranks, tiles);
+    estimate.farm = simulate_farm(costs, ranks, assumed_ranks_of_host, tiles);
     // The sum of the simulated times deviates from that of the tiles: by 10 % if these differ much.
     estimate.farm.seconds = costs.tile * double(tiles) / (ranks * estimate.farm.efficiency);
     return estimate;

@@ -7,6 +7,7 @@
 #include "overturn/farm/stop_signals.hpp"
 #include "overturn/file/merge.hpp"
 #include "overturn/file/output_lock.hpp"
+#include "overturn/text/mapped.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include <algorithm>
@@ -78,10 +79,7 @@ int merge(const MergeOptions& options)
     const std::string& output = options.output;
     const OutputLock lock(output);
     allow_open_files(options.parts.size());
-    std::vector<StoredResult> parts;
-    for (const std::string& path : options.parts) {
-        parts.push_back(opened(path, lock));
-    }
+    auto parts = mapped(options.parts, [&](const std::string& path) { return opened(path, lock); });
     expect_all_parts(parts);
     if (is_merged(output, parts.front(), lock)) {
         print_line(output + " is already complete.");

@@ -11,6 +11,7 @@
 #include "report/sidecar.hpp"
 
 #include "overturn/farm/farm.hpp"
+#include "overturn/farm/node.hpp"
 #include "overturn/farm/stop_signals.hpp"
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/result_writer.hpp"
@@ -80,7 +81,7 @@ std::string end_line(const Task& task, const FarmReport& report, double seconds)
         percent * report.all.compute_seconds, percent * report.all.write_seconds);
 }
 
-FarmReport farm_tiles(const Task& task, const std::vector<std::int64_t>& missing,
+FarmReport farm_tiles(const Task& task, const Node& node, const std::vector<std::int64_t>& missing,
                       ResultWriter& file, Sidecar& sidecar)
 {
     const std::int64_t tiles_before = task.own.size() - std::int64_t(missing.size());
@@ -104,7 +105,7 @@ FarmReport farm_tiles(const Task& task, const std::vector<std::int64_t>& missing
                 progress.update(task.items_in(tiles_before + done));
                 sidecar.update(progress.state());
             }};
-    return farm_out(task.session, order.places_of(missing), tile_work,
+    return farm_out(task.session, node, order.places_of(missing), tile_work,
                     {StopSignals::requested, StopSignals::overdue},
                     std::chrono::seconds(task.options.patience));
 }
@@ -146,6 +147,7 @@ int run_on_this_rank(const Task& task)
         }
         return exit_code::output;
     }
+    Node node(task.session);
     ResultWriter file(path, task.session.communicator(), task.problem, task.options.durable);
     std::vector<std::int64_t> missing;
     Sidecar sidecar(task.path, task.session.hosts(), task.kernel, task.start); // of rank 0
@@ -160,7 +162,8 @@ int run_on_this_rank(const Task& task)
         sidecar.update({before, before, task.items_in(task.own.size()), 0, task.items.name});
         print_line(start_line(task, tiles_before));
     }
-    const FarmReport report = farm_tiles(task, missing, file, sidecar);
+    const FarmReport report = farm_tiles(task, node, missing, file, sidecar);
+    node.free();
     file.close();
     int code = exit_code::complete;
     if (task.is_rank_0()) {
@@ -192,6 +195,7 @@ int run(const RunOptions& options)
     if (session.rank() == 0) {
         try {
             kernel_called(options.kernel); // throws if this machine does not support it
+            most_ranks_per_node();         // throws if it is not a number
             job = read_job(options.job.path, options.job.overrides);
             if (options.boundary) {
                 job = boundary_of(std::move(*job));

@@ -123,6 +123,7 @@ MpiSession::MpiSession()
     Name own{}; // its zeros end the name
     int length = 0;
     MPI_Get_processor_name(own.data(), &length);
+    host_ = own.data();
     hosts_ =
         mapped(gather_on_rank_0(own), [](const Name& name) { return std::string(name.data()); });
 }

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <numeric>
+#include <functional>
+#include <limits>
 #include <queue>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace overturn {
@@ -13,146 +14,150 @@ namespace overturn {
 namespace {
 
 constexpr double message_seconds = 2e-6;
+constexpr double leader_is_late = 1e-4; // [s]
+constexpr double rank_0_is_late = 1e-3; // [s]
 
 class Simulation {
 public:
-    Simulation(const FarmCosts& costs, int ranks, std::int64_t tiles, const RangeLimits& limits)
-        : costs_(costs), limits_(limits), dispatcher_(all(tiles), ranks),
-          workers_(std::size_t(ranks))
-    {}
+    Simulation(const FarmCosts& costs, int ranks, int ranks_per_node, std::int64_t tiles,
+               const TileLimits& limits)
+        : costs_(costs), ranks_(ranks), limits_(limits), left_(tiles),
+          duration_(1 / (costs.spread * costs.spread), costs.tile * costs.spread * costs.spread)
+    {
+        for (int first = 0; first < ranks; first += ranks_per_node) {
+            const int ranks_of_node = std::min(ranks_per_node, ranks - first);
+            nodes_.push_back({.ranks = ranks_of_node,
+                              .free_at = Times(std::greater<>(),
+                                               std::vector<double>(std::size_t(ranks_of_node)))});
+        }
+    }
 
     SimulatedFarm run()
     {
-        for (std::size_t worker = 1; worker < workers_.size(); ++worker) {
-            events_.push({message_seconds, Kind::requested, worker});
+        for (std::size_t node = 0; node < nodes_.size(); ++node) {
+            events_.push({message_seconds, node, 0});
         }
-        serve(0);
         while (!events_.empty()) {
             const Event event = events_.top();
             events_.pop();
-            handle(event);
+            if (event.tiles > 0) {
+                receive(event);
+            } else {
+                serve(event);
+            }
         }
-        return {.seconds = end_,
-                .efficiency = busy_ / (double(workers_.size()) * end_),
-                .answering = answering_ / end_};
+        return {
+            .seconds = end_, .efficiency = busy_ / (ranks_ * end_), .answering = answering_ / end_};
     }
 
 private:
-    enum class Kind { requested, answered, computed, rank_0_is_free };
+    /// A request that rank 0 receives, or an answer with tiles that a node receives.
     struct Event {
         double time;
-        Kind kind;
-        std::size_t worker;
+        std::size_t node;
+        std::int64_t tiles;                                                    ///< 0: a request
         bool operator<(const Event& other) const { return time > other.time; } // soonest first
     };
-    struct Worker {
-        std::int64_t ahead = 0;      ///< tiles of the range that has arrived
-        std::int64_t dispatched = 0; ///< tiles of the range that is in transit
-        bool computes = false;
+    using Times = std::priority_queue<double, std::vector<double>, std::greater<>>;
+    struct Node {
+        int ranks;
+        Times free_at; ///< of its ranks
+        std::int64_t pool = 0;
+        double pool_is_free_at = 0;
     };
 
-    static std::vector<std::int64_t> all(std::int64_t tiles)
+    void serve(const Event& request)
     {
-        std::vector<std::int64_t> numbers;
-        numbers.resize(std::size_t(tiles));
-        std::iota(numbers.begin(), numbers.end(), 0);
-        return numbers;
-    }
-
-    void handle(const Event& event)
-    {
-        Worker& worker = workers_[event.worker];
-        switch (event.kind) {
-        case Kind::requested: requests_.push_back(event.worker); break;
-        case Kind::answered: worker.ahead = worker.dispatched; break;
-        case Kind::computed: worker.computes = false; break;
-        case Kind::rank_0_is_free: rank_0_is_busy_ = false; break;
-        }
-        if (event.kind == Kind::requested || event.kind == Kind::rank_0_is_free) {
-            serve(event.time);
+        const std::int64_t tiles =
+            tiles_for_node(left_, nodes_[request.node].ranks, ranks_, limits_);
+        left_ -= tiles;
+        rank_0_is_free_at_ = std::max(rank_0_is_free_at_, request.time) + costs_.answer;
+        answering_ += costs_.answer;
+        answering_in_tile_ += costs_.answer;
+        if (tiles > 0) {
+            events_.push({rank_0_is_free_at_ + message_seconds, request.node, tiles});
         } else {
-            begin_range(event.worker, event.time);
+            compute(request.node, std::numeric_limits<double>::infinity());
         }
     }
 
-    void begin_range(std::size_t number, double time)
+    void receive(const Event& answer)
     {
-        Worker& worker = workers_[number];
-        if (worker.computes || worker.ahead == 0) {
-            return;
+        Node& node = nodes_[answer.node];
+        compute(answer.node, answer.time);
+        node.pool += answer.tiles;
+        node.pool_is_free_at = std::max(node.pool_is_free_at, answer.time);
+        double time = answer.time;
+        while (node.pool > answer.tiles) {
+            time = take(answer.node);
         }
-        events_.push({time + compute(worker.ahead, time), Kind::computed, number});
-        events_.push({time + message_seconds, Kind::requested, number});
-        worker.ahead = 0;
-        worker.computes = true;
+        const double late = uniform_(generator_) * (leader_is_late + rank_0_is_late);
+        events_.push({time + late + message_seconds, answer.node, 0});
     }
 
-    void serve(double time)
+    /// The tiles that the ranks of a node take before a time.
+    void compute(std::size_t number, double until)
     {
-        if (rank_0_is_busy_) {
-            return;
+        const Node& node = nodes_[number];
+        while (node.pool > 0 && node.free_at.top() < until) {
+            take(number);
         }
-        double seconds = 0;
-        if (!requests_.empty()) {
-            const std::size_t worker = requests_.front();
-            requests_.pop_front();
-            const TileRange range = dispatcher_.next_range(limits_);
-            workers_[worker].dispatched = range.end - range.begin;
-            seconds = costs_.answer;
-            answering_ += seconds;
-            events_.push({time + seconds + message_seconds, Kind::answered, worker});
-        } else if (!dispatcher_.next_tile().empty()) {
-            seconds = compute(1, time);
-        } else {
-            return;
-        }
-        rank_0_is_busy_ = true;
-        events_.push({time + seconds, Kind::rank_0_is_free, 0});
     }
 
-    /// The duration of some tiles that begin at `time`.
-    double compute(std::int64_t tiles, double time)
+    /// The first rank that is free takes a tile. Returns when.
+    double take(std::size_t number)
     {
-        const double mean = double(tiles) * costs_.tile;
-        const double shape = double(tiles) / (costs_.spread * costs_.spread);
-        const double seconds =
-            std::isfinite(shape) ? mean / shape * std::gamma_distribution<double>(shape)(generator_)
-                                 : mean;
+        Node& node = nodes_[number];
+        const double start = std::max(node.free_at.top(), node.pool_is_free_at);
+        double seconds = costs_.spread > 0 ? duration_(generator_) : costs_.tile;
         busy_ += seconds;
-        end_ = std::max(end_, time + seconds);
-        return seconds;
+        end_ = std::max(end_, start + costs_.take + seconds);
+        if (number == 0) { // rank 0 is one of its ranks
+            seconds += std::exchange(answering_in_tile_, 0.0);
+        }
+        --node.pool;
+        node.pool_is_free_at = start + costs_.take;
+        node.free_at.pop();
+        node.free_at.push(start + costs_.take + seconds);
+        return start;
     }
 
     FarmCosts costs_;
-    RangeLimits limits_;
-    TileDispatcher dispatcher_;
-    std::vector<Worker> workers_;
-    std::deque<std::size_t> requests_;
+    int ranks_;
+    TileLimits limits_;
+    std::int64_t left_;
+    std::vector<Node> nodes_;
     std::priority_queue<Event> events_;
-    bool rank_0_is_busy_ = false;
+    double rank_0_is_free_at_ = 0;
+    double answering_in_tile_ = 0; ///< of rank 0, not yet added to the time of a tile
     double busy_ = 0;
     double answering_ = 0;
     double end_ = 0;
     std::mt19937_64 generator_{1};
+    std::uniform_real_distribution<double> uniform_;
+    std::gamma_distribution<double> duration_;
 };
 
 } // namespace
 
-SimulatedFarm simulate_farm(const FarmCosts& costs, int ranks, std::int64_t tiles,
-                            const RangeLimits& limits)
+SimulatedFarm simulate_farm(const FarmCosts& costs, int ranks, int ranks_per_node,
+                            std::int64_t tiles, const TileLimits& limits)
 {
-    return Simulation(costs, ranks, tiles, limits).run();
+    return Simulation(costs, ranks, ranks_per_node, tiles, limits).run();
 }
 
-SimulatedFarm simulate_farm(const FarmCosts& costs, int ranks, std::int64_t tiles)
+SimulatedFarm simulate_farm(const FarmCosts& costs, int ranks, int ranks_per_node,
+                            std::int64_t tiles)
 {
     const auto most = std::clamp<std::int64_t>(std::int64_t(256) * ranks, 4'000'000, 32'000'000);
     const std::int64_t in_one = (tiles + most - 1) / most;
     const FarmCosts of_one{.answer = costs.answer,
+                           .take = costs.take * double(in_one),
                            .tile = costs.tile * double(in_one),
                            .spread = costs.spread / std::sqrt(double(in_one))};
-    return simulate_farm(of_one, ranks, (tiles + in_one - 1) / in_one,
-                         range_limits(ranks, of_one.answer, of_one.tile));
+    const int nodes = (ranks + ranks_per_node - 1) / ranks_per_node;
+    return simulate_farm(of_one, ranks, ranks_per_node, (tiles + in_one - 1) / in_one,
+                         tile_limits(nodes, of_one.answer, of_one.tile));
 }
 
 } // namespace overturn

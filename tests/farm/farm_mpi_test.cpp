@@ -1,10 +1,13 @@
 #include "overturn/farm/farm.hpp"
+#include "overturn/farm/node.hpp"
+#include "overturn/text/error.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <thread>
 #include <vector>
@@ -14,7 +17,6 @@ namespace {
 
 const auto never = [] { return false; };
 const StopRequest no_stop{never, never};
-constexpr std::chrono::seconds patience{60};
 const auto no_progress = [](std::int64_t) {};
 
 /// Every `stride`-th number from 0 on rank 0; empty on other ranks, as the farm requires.
@@ -28,6 +30,16 @@ std::vector<std::int64_t> tiles_on_rank_0(const MpiSession& session, std::int64_
     return tiles;
 }
 
+FarmReport run_farm(const MpiSession& session, const std::vector<std::int64_t>& tiles,
+                    const TileWork& tile_work, const StopRequest& stop)
+{
+    constexpr std::chrono::seconds patience{60};
+    Node node(session);
+    FarmReport report = farm_out(session, node, tiles, tile_work, stop, patience);
+    node.free();
+    return report;
+}
+
 /// Runs the farm without writing anything.
 FarmReport compute_all(const MpiSession& session, const std::vector<std::int64_t>& tiles,
                        const std::function<void(std::int64_t)>& compute,
@@ -38,8 +50,8 @@ FarmReport compute_all(const MpiSession& session, const std::vector<std::int64_t
         compute(number);
         return true;
     };
-    return farm_out(session, tiles, {compute_whole, [](std::int64_t) {}, on_progress},
-                    {stop_requested, never}, patience);
+    return run_farm(session, tiles, {compute_whole, [](std::int64_t) {}, on_progress},
+                    {stop_requested, never});
 }
 
 /// How often each tile number in [0, numbers) was computed by all ranks; returned on all ranks.
@@ -55,7 +67,26 @@ void work_for(std::chrono::microseconds duration)
     std::this_thread::sleep_for(duration); // other ranks of a small machine may compute meanwhile
 }
 
-TEST(Farm, ComputesEachTileOnce)
+/// The parameter: OVERTURN_RANKS_PER_NODE; 0: not set.
+class Farm : public testing::TestWithParam<int> {
+protected:
+    Farm()
+    {
+        if (GetParam() > 0) {
+            setenv("OVERTURN_RANKS_PER_NODE", std::to_string(GetParam()).c_str(), 1);
+        }
+    }
+    ~Farm() override { unsetenv("OVERTURN_RANKS_PER_NODE"); }
+
+    static int nodes(const MpiSession& session)
+    {
+        return GetParam() == 0 ? 1 : (session.size() + GetParam() - 1) / GetParam();
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(RanksPerNode, Farm, testing::Values(0, 1, 2));
+
+TEST_P(Farm, ComputesEachTileOnce)
 {
     const MpiSession session;
     for (const int count : {0, 1, 2, 3, 4, 7, 50, 1000}) {
@@ -69,7 +100,7 @@ TEST(Farm, ComputesEachTileOnce)
     }
 }
 
-TEST(Farm, ComputesOnlyTheTilesOfTheList)
+TEST_P(Farm, ComputesOnlyTheTilesOfTheList)
 {
     const MpiSession session;
     std::vector<int> times(300, 0);
@@ -81,7 +112,7 @@ TEST(Farm, ComputesOnlyTheTilesOfTheList)
     }
 }
 
-TEST(Farm, ReportsTheShareOfEachRank)
+TEST_P(Farm, ReportsTheShareOfEachRank)
 {
     const MpiSession session;
     std::int64_t own = 0;
@@ -96,8 +127,7 @@ TEST(Farm, ReportsTheShareOfEachRank)
                                      ++own;
                                  },
                              .on_progress = no_progress};
-    const FarmReport report =
-        farm_out(session, tiles_on_rank_0(session, 60), tile_work, no_stop, patience);
+    const FarmReport report = run_farm(session, tiles_on_rank_0(session, 60), tile_work, no_stop);
 
     std::vector<std::int64_t> counted(std::size_t(session.size()));
     MPI_Allgather(&own, 1, MPI_INT64_T, counted.data(), 1, MPI_INT64_T, session.communicator());
@@ -111,12 +141,12 @@ TEST(Farm, ReportsTheShareOfEachRank)
         EXPECT_GE(report.ranks[rank].compute_seconds, 0.002 * double(counted[rank]));
         EXPECT_GE(report.ranks[rank].write_seconds, 0.001 * double(counted[rank]));
     }
-    // Every worker requests its first range, and one ahead of each.
-    EXPECT_GE(report.dispatch.requests, 2 * (session.size() - 1));
-    EXPECT_EQ(report.dispatch.seconds > 0, session.size() > 1);
+    // Every other node requests its first tiles, and more ahead of each.
+    EXPECT_GE(report.dispatch.requests, 2 * (nodes(session) - 1));
+    EXPECT_EQ(report.dispatch.seconds > 0, nodes(session) > 1);
 }
 
-TEST(Farm, ProgressIncreasesToTheNumberOfTiles)
+TEST_P(Farm, ProgressIncreasesToTheNumberOfTiles)
 {
     const MpiSession session;
     std::vector<std::int64_t> seen{0};
@@ -128,7 +158,7 @@ TEST(Farm, ProgressIncreasesToTheNumberOfTiles)
     EXPECT_EQ(seen.back(), session.rank() == 0 ? 200 : 0);
 }
 
-TEST(Farm, SharesUnequalTilesEvenly)
+TEST_P(Farm, SharesUnequalTilesEvenly)
 {
     const MpiSession session;
     // The first tenth of the tiles takes two thirds of the time.
@@ -149,7 +179,7 @@ TEST(Farm, SharesUnequalTilesEvenly)
     }
 }
 
-TEST(Farm, AStopOnAnyRankLeavesTheRestUncomputed)
+TEST_P(Farm, AStopOnAnyRankLeavesTheRestUncomputed)
 {
     const MpiSession session;
     for (int stopping_rank = 0; stopping_rank < session.size(); ++stopping_rank) {
@@ -169,7 +199,7 @@ TEST(Farm, AStopOnAnyRankLeavesTheRestUncomputed)
         EXPECT_TRUE(report.stopped);
         EXPECT_EQ(report.all.tiles, done);
         EXPECT_EQ(*std::max_element(times.begin(), times.end()), 1);
-        // Others finish the ranges that they hold, one in progress and one ahead, each of a 16th of
+        // Other nodes finish the tiles that they were given, in progress and ahead, each a 16th of
         // a fair share.
         EXPECT_LT(done, count / 2);
         if (session.rank() == stopping_rank) {
@@ -178,7 +208,7 @@ TEST(Farm, AStopOnAnyRankLeavesTheRestUncomputed)
     }
 }
 
-TEST(Farm, AStopBeforeTheFirstTileComputesNothing)
+TEST_P(Farm, AStopBeforeTheFirstTileComputesNothing)
 {
     const MpiSession session;
     int own = 0;
@@ -189,7 +219,7 @@ TEST(Farm, AStopBeforeTheFirstTileComputesNothing)
     EXPECT_TRUE(report.stopped);
 }
 
-TEST(Farm, ATileAbandonedAtAStopIsNeitherWrittenNorCounted)
+TEST_P(Farm, ATileAbandonedAtAStopIsNeitherWrittenNorCounted)
 {
     const MpiSession session;
     const int stopping_rank = session.size() - 1;
@@ -205,7 +235,7 @@ TEST(Farm, ATileAbandonedAtAStopIsNeitherWrittenNorCounted)
                              .write = [&](std::int64_t) { ++written; },
                              .on_progress = no_progress};
     const FarmReport report =
-        farm_out(session, tiles_on_rank_0(session, 500), tile_work, {stop, stop}, patience);
+        run_farm(session, tiles_on_rank_0(session, 500), tile_work, {stop, stop});
     if (session.rank() == stopping_rank) {
         EXPECT_EQ(written, 2);
     }
@@ -214,16 +244,18 @@ TEST(Farm, ATileAbandonedAtAStopIsNeitherWrittenNorCounted)
     EXPECT_TRUE(report.stopped);
 }
 
-TEST(Farm, WorkersContinueWhileRank0ComputesALongTile)
+TEST_P(Farm, OtherRanksContinueWhileRank0ComputesALongTile)
 {
     const MpiSession session;
     constexpr std::int64_t count = 100;
+    // Of its node alone, rank 0 has tiles that no other rank takes.
+    const std::int64_t others = GetParam() == 1 ? count / 2 : count - 1;
     std::int64_t done = 0;
-    // The first tile of rank 0 lasts until the workers have done all others.
+    // The first tile of rank 0 lasts until the others have done theirs.
     const TileWork tile_work{.compute =
                                  [&](std::int64_t, const DropRequested& drop_requested) {
                                      while (session.rank() == 0 && session.size() > 1 &&
-                                            done < count - 1) {
+                                            done < others) {
                                          drop_requested();
                                      }
                                      return true;
@@ -231,19 +263,50 @@ TEST(Farm, WorkersContinueWhileRank0ComputesALongTile)
                              .write = [](std::int64_t) {},
                              .on_progress = [&](std::int64_t now_done) { done = now_done; }};
     const FarmReport report =
-        farm_out(session, tiles_on_rank_0(session, count), tile_work, no_stop, patience);
+        run_farm(session, tiles_on_rank_0(session, count), tile_work, no_stop);
     EXPECT_EQ(report.all.tiles, count);
     if (session.rank() == 0 && session.size() > 1) {
-        EXPECT_LE(report.ranks[0].tiles, 1);
+        EXPECT_LE(report.ranks[0].tiles, count - others);
     }
 }
 
-TEST(Farm, AStopAfterTheLastTileIsIgnored)
+TEST_P(Farm, AStopAfterTheLastTileIsIgnored)
 {
     const MpiSession session;
     const FarmReport report = compute_all(
         session, tiles_on_rank_0(session, 0), [](std::int64_t) {}, [] { return true; });
     EXPECT_FALSE(report.stopped);
+}
+
+TEST(Node, HasTheRanksOfTheHostOrAsManyAsTheEnvironmentAllows)
+{
+    const MpiSession session;
+    for (const int most : {0, 1, 2, 1000}) {
+        if (most > 0) {
+            setenv("OVERTURN_RANKS_PER_NODE", std::to_string(most).c_str(), 1);
+        }
+        Node node(session);
+        unsetenv("OVERTURN_RANKS_PER_NODE");
+        const int first = most == 0 ? 0 : session.rank() / most * most;
+        const int end = most == 0 ? session.size() : std::min(first + most, session.size());
+        EXPECT_EQ(node.leader().rank, first);
+        EXPECT_EQ(node.is_leader(), session.rank() == first);
+        ASSERT_EQ(int(node.ranks().size()), end - first);
+        for (int rank = first; rank < end; ++rank) {
+            EXPECT_EQ(node.ranks()[std::size_t(rank - first)].rank, rank);
+        }
+        EXPECT_EQ(&node.own(), &node.ranks()[std::size_t(session.rank() - first)]);
+        node.free();
+    }
+}
+
+TEST(Node, RefusesAWrongNumberOfRanks)
+{
+    for (const char* const wrong : {"", "0", "-1", "1.5", "two", "2 ", "1e10", "nan"}) {
+        setenv("OVERTURN_RANKS_PER_NODE", wrong, 1);
+        EXPECT_THROW(most_ranks_per_node(), Error) << wrong;
+    }
+    unsetenv("OVERTURN_RANKS_PER_NODE");
 }
 
 TEST(MpiSession, GivesAllRanksTheValueOfRank0)

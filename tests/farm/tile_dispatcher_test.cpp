@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace overturn {
@@ -17,15 +19,22 @@ std::vector<std::int64_t> first_numbers(std::size_t count)
     return numbers;
 }
 
-std::vector<TileRange> dispatch_all(TileDispatcher dispatcher)
+/// The answers to requests of nodes that have so many ranks, and take turns.
+std::vector<std::vector<TileRange>> dispatch_all(const std::vector<std::int64_t>& tiles,
+                                                 const std::vector<int>& ranks_of_nodes,
+                                                 int most_ranges = 64,
+                                                 const TileLimits& limits = {})
 {
-    std::vector<TileRange> ranges;
+    TileDispatcher dispatcher(tiles,
+                              std::accumulate(ranks_of_nodes.begin(), ranks_of_nodes.end(), 0));
+    std::vector<std::vector<TileRange>> answers;
     while (true) {
-        const TileRange range = dispatcher.next_range();
-        if (range.empty()) {
-            return ranges;
+        const int ranks = ranks_of_nodes[answers.size() % ranks_of_nodes.size()];
+        answers.push_back(dispatcher.next_ranges(ranks, limits, most_ranges));
+        if (answers.back().empty()) {
+            answers.pop_back();
+            return answers;
         }
-        ranges.push_back(range);
     }
 }
 
@@ -40,12 +49,28 @@ std::vector<std::int64_t> numbers_in(const std::vector<TileRange>& ranges)
     return numbers;
 }
 
+std::vector<std::int64_t> numbers_in(const std::vector<std::vector<TileRange>>& answers)
+{
+    std::vector<TileRange> ranges;
+    for (const auto& answer : answers) {
+        ranges.insert(ranges.end(), answer.begin(), answer.end());
+    }
+    return numbers_in(ranges);
+}
+
+std::int64_t tiles_in(const std::vector<TileRange>& ranges)
+{
+    return std::int64_t(numbers_in(ranges).size());
+}
+
 TEST(TileDispatcher, DispatchesEachTileOnceInOrder)
 {
     for (const std::size_t count : {0, 1, 2, 7, 100, 1001}) {
-        for (const int ranks : {1, 2, 3, 64}) {
+        for (const std::vector<int>& nodes : std::vector<std::vector<int>>{
+                 {1}, {2}, {1, 1}, {3, 1}, std::vector<int>(10, 1), std::vector<int>(3, 64)}) {
             const auto tiles = first_numbers(count);
-            EXPECT_EQ(numbers_in(dispatch_all({tiles, ranks})), tiles) << count << " for " << ranks;
+            EXPECT_EQ(numbers_in(dispatch_all(tiles, nodes)), tiles)
+                << count << " for " << nodes.size();
         }
     }
 }
@@ -59,63 +84,72 @@ TEST(TileDispatcher, SplitsRangesWhereNumbersAreMissing)
             tiles.push_back(number);
         }
     }
-    EXPECT_EQ(numbers_in(dispatch_all({tiles, 2})), tiles);
-}
-
-TEST(TileDispatcher, DispatchesShorterRangesTowardsTheEnd)
-{
-    const auto ranges = dispatch_all({first_numbers(1000), 2});
-    const auto length = [](const TileRange& range) { return range.end - range.begin; };
-    for (std::size_t i = 1; i < ranges.size(); ++i) {
-        EXPECT_LE(length(ranges[i]), length(ranges[i - 1]));
-    }
-    EXPECT_GT(length(ranges.front()), 8);
-    // Two ranks with one range each in progress and one ahead: the last four decide the balance.
-    for (std::size_t i = ranges.size() - 4; i < ranges.size(); ++i) {
-        EXPECT_EQ(length(ranges[i]), 1);
+    for (const int most_ranges : {1, 2, 64}) {
+        const auto answers = dispatch_all(tiles, {2, 2}, most_ranges);
+        EXPECT_EQ(numbers_in(answers), tiles);
+        for (const auto& answer : answers) {
+            EXPECT_LE(answer.size(), std::size_t(most_ranges));
+        }
     }
 }
 
-TEST(TileDispatcher, DispatchesRangesWithinLimitsUntilTheEnd)
+TEST(TileDispatcher, GivesLessTowardsTheEnd)
 {
-    TileDispatcher dispatcher(first_numbers(10000), 4);
-    const RangeLimits limits{.least = 5, .most = 40};
-    std::int64_t left = 10000;
-    while (left > 0) {
-        const TileRange range = dispatcher.next_range(limits);
-        const std::int64_t length = range.end - range.begin;
-        EXPECT_LE(length, 40);
-        EXPECT_GE(length, std::clamp<std::int64_t>(left / 8, 1, 5)); // half of a fair share
-        left -= length;
+    const auto answers = dispatch_all(first_numbers(1000), {1, 1});
+    for (std::size_t i = 1; i < answers.size(); ++i) {
+        EXPECT_LE(tiles_in(answers[i]), tiles_in(answers[i - 1]));
     }
-    EXPECT_TRUE(dispatcher.next_range(limits).empty());
+    EXPECT_GT(tiles_in(answers.front()), 8);
+    // Two nodes with one answer each in progress and one ahead: the last four decide the balance.
+    for (std::size_t i = answers.size() - 4; i < answers.size(); ++i) {
+        EXPECT_EQ(tiles_in(answers[i]), 1);
+    }
 }
 
-TEST(RangeLimits, LeaveRank0HalfOfItsTimeForTiles)
+TEST(TileDispatcher, GivesEachNodeByItsRanksWithinTheLimits)
 {
-    // 10,000 ranks with tiles of 0.4 ms send 25 million requests per second for single tiles; an
-    // answer takes 0.4 us, so that rank 0 gives 1.25 million in half of its time: 20 tiles each.
-    const RangeLimits limits = range_limits(10000, 4e-7, 4e-4);
-    EXPECT_EQ(limits.least, 20u);
-    EXPECT_EQ(limits.most, 250u); // 0.1 s
+    constexpr TileLimits limits{.least = 5, .most = 40};
+    for (const auto& [large, small] : {std::pair{64, 1}, {4, 4}, {3, 2}}) {
+        std::int64_t left = 100'000;
+        std::int64_t answers = 0;
+        for (const auto& answer :
+             dispatch_all(first_numbers(100'000), {large, small}, 64, limits)) {
+            const int ranks = answers % 2 == 0 ? large : small;
+            const double fair = double(left) * ranks / (large + small);
+            EXPECT_LE(double(tiles_in(answer)), std::min(40.0 * ranks, std::ceil(fair)));
+            EXPECT_GE(double(tiles_in(answer)), std::min(5.0 * ranks, std::floor(fair)));
+            left -= tiles_in(answer);
+            ++answers;
+        }
+        EXPECT_EQ(left, 0);
+    }
 }
 
-TEST(RangeLimits, AreThoseOfAFewRanksIfRank0HasTime)
+TEST(TileLimits, LeaveRank0HalfOfItsTimeForTiles)
 {
-    EXPECT_EQ(range_limits(8, 1e-6, 1e-2).least, 1u);
-    EXPECT_EQ(range_limits(8, 1e-6, 1e-2).most, 16u);
-    EXPECT_EQ(range_limits(8, 1e-6, 100).most, 16u);
-    EXPECT_EQ(range_limits(8, 1e-6, 0).least, 1u); // no measurements yet
-    EXPECT_GE(range_limits(1 << 20, 1e-3, 1e-9).most, range_limits(1 << 20, 1e-3, 1e-9).least);
+    // 10,000 nodes whose ranks compute a tile in 0.4 ms request 25 million times per second if they
+    // are given a tile for each rank; an answer takes 0.4 us, so that rank 0 gives 1.25 million in
+    // half of its time: 20 tiles for each rank.
+    const TileLimits limits = tile_limits(10000, 4e-7, 4e-4);
+    EXPECT_EQ(limits.least, 20);
+    EXPECT_EQ(limits.most, 250); // 0.1 s
+}
+
+TEST(TileLimits, AreThoseOfAFewNodesIfRank0HasTime)
+{
+    EXPECT_EQ(tile_limits(8, 1e-6, 1e-2).least, 1);
+    EXPECT_EQ(tile_limits(8, 1e-6, 1e-2).most, 16);
+    EXPECT_EQ(tile_limits(8, 1e-6, 100).most, 16);
+    EXPECT_EQ(tile_limits(8, 1e-6, 0).least, 1); // no measurements yet
+    EXPECT_GE(tile_limits(1 << 20, 1e-3, 1e-9).most, tile_limits(1 << 20, 1e-3, 1e-9).least);
 }
 
 TEST(TileDispatcher, DispatchesNothingAfterAStop)
 {
     TileDispatcher dispatcher(first_numbers(10), 1);
-    EXPECT_FALSE(dispatcher.next_tile().empty());
+    EXPECT_FALSE(dispatcher.next_ranges(1, {}, 64).empty());
     dispatcher.stop();
-    EXPECT_TRUE(dispatcher.next_range().empty());
-    EXPECT_TRUE(dispatcher.next_tile().empty());
+    EXPECT_TRUE(dispatcher.next_ranges(1, {}, 64).empty());
 }
 
 } // namespace

@@ -125,8 +125,9 @@ class Runs:
         return int(count.read_text().split()[0])
 
     def start(self, ranks, **more):
+        nodes = {"OVERTURN_RANKS_PER_NODE": self.chance.choice("125")}
         return subprocess.Popen(self.command(ranks, self.file.name), cwd=self.folder,
-                                env=ENVIRONMENT | more, stdout=subprocess.DEVNULL,
+                                env=ENVIRONMENT | nodes | more, stdout=subprocess.DEVNULL,
                                 stderr=subprocess.DEVNULL, start_new_session=True)
 
     def kill_at_a_write(self, ranks):

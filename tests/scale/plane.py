@@ -161,14 +161,14 @@ class Command:
 
     running = []
 
-    def __init__(self, folder, arguments, ranks=None):
+    def __init__(self, folder, arguments, ranks=None, variables=None):
         self.ranks, self.memory, self.pids = ranks or 1, {}, []
         command = [*(under_mpi(ranks) if ranks else []), OVERTURN, *map(str, arguments)]
         self.output = tempfile.TemporaryFile(dir=folder)
         self.began = self.last_word = time.monotonic()
         self.length = 0
-        self.process = subprocess.Popen(command, cwd=folder, env=ENVIRONMENT, stdout=self.output,
-                                        stderr=subprocess.STDOUT, start_new_session=True)
+        self.process = subprocess.Popen(command, cwd=folder, env=ENVIRONMENT | (variables or {}),
+                                        stdout=self.output, stderr=subprocess.STDOUT, start_new_session=True)
         self.under_mpi = ranks is not None
         Command.running.append(self)
 
@@ -234,7 +234,10 @@ class Command:
         return self.must_end_with(STOPPED).must_say("stopped by a signal")
 
     def kill_a_rank(self, chance):
-        os.kill(chance.choice(self.pids), signal.SIGKILL)
+        return self.kill_rank(chance.randrange(len(self.pids)))
+
+    def kill_rank(self, rank):
+        os.kill(self.pids[rank], signal.SIGKILL)
         demand(self.wait_for_end() != 0, "a killed rank was not detected")
         return self
 

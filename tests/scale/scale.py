@@ -6,6 +6,8 @@
     ranks    64 ranks on this machine's cores: the same bytes as one rank, also stopped and resumed
     bytes    the same bytes on 1, 2, 3, 8 and 64 ranks, in 1, 3 and 16 parts, and by all kernels, in
              single and in double precision
+    nodes    the same bytes on 64 and 128 ranks in nodes of 2 to 32, also after the leader of a node was
+             killed or suspended
     points   10^9 points, stopped once and a rank killed once: bounded memory and correct values
     beyond   the last tiles of a plane of more than 2^32 points, and one of 1000 parts of it in single
              precision
@@ -28,7 +30,7 @@ import tempfile
 import h5py
 import numpy as np
 
-from plane import (CHEAP, CORES, COSTLY, MIB, SINGLE, Command, Failure, Plane, demand,
+from plane import (CHEAP, CORES, COSTLY, MIB, SINGLE, STOPPED, Command, Failure, Plane, demand,
                    demand_little_memory, digest, human, resume, say, verify)
 
 
@@ -96,6 +98,43 @@ def equal_bytes(folder, options, chance):
 
 # Part 3
 
+def nodes(folder, options, chance):
+    """The division of ranks into nodes must not change a byte; a leader that dies loses nothing."""
+    plane = Plane(folder, "nodes", 640, 1270, COSTLY)
+    plane.run(None).must_end_with(0)
+    expected = digest(plane.file)
+
+    def start(ranks, ranks_per_node):
+        plane.file.unlink(missing_ok=True)
+        return Command(folder, ["run", plane.job, "-o", plane.file, "--patience", "20"], ranks,
+                       {"OVERTURN_RANKS_PER_NODE": str(ranks_per_node)})
+
+    for ranks in (64, 128):
+        for ranks_per_node in (2, 4, 8, 16, 32):
+            say(f"{plane} in {plane.tiles} tiles on {ranks} ranks in nodes of {ranks_per_node}")
+            start(ranks, ranks_per_node).must_end_with(0)
+            demand(digest(plane.file) == expected, "bytes differ")
+    disturbed = 0
+    for ranks, ranks_per_node in ((64, 8), (128, 32), (64, 2)):
+        for signal_to_leader in (signal.SIGKILL, signal.SIGSTOP):
+            leader = ranks_per_node * chance.randrange(1, ranks // ranks_per_node)
+            say(f"rank {leader}, the leader of one of {ranks // ranks_per_node} nodes: {signal_to_leader.name}")
+            run = start(ranks, ranks_per_node)
+            run.wait_for_tiles(plane, 0.1)
+            if signal_to_leader == signal.SIGKILL:
+                run.kill_rank(leader)
+            else:
+                os.kill(run.pids[leader], signal.SIGSTOP)
+                run.must_end_with(STOPPED).must_say(f"rank {leader} on ", "has not responded for 20 s")
+            resume(plane, 3).must_end_with(0)
+            demand(digest(plane.file) == expected, "bytes differ after it was resumed")
+            disturbed += 1
+    return (f"{plane.tiles} tiles on 64 and 128 ranks, in nodes of 2, 4, 8, 16 and 32; {disturbed} runs whose leader "
+            f"of a node was killed or suspended, resumed on 3 ranks | 0 bytes differ")
+
+
+# Part 4
+
 def many_points(folder, options, chance):
     """A plane that is stopped once and killed once: bounded memory and correct values."""
     side = options.points_per_side
@@ -127,7 +166,7 @@ def many_points(folder, options, chance):
             f"points equal when computed separately")
 
 
-# Part 4
+# Part 5
 
 def beyond_32_bits(folder, options, chance):
     """Stops a run at its beginning, marks most missing tiles as done, and computes the last
@@ -220,7 +259,7 @@ def places_in_file(plane, tiles):
             [(chunk.byte_offset, chunk.size) for chunk in chunks])
 
 
-# Part 5
+# Part 6
 
 def merged_parts(folder, options, chance):
     """Merges two parts of more than 2^32 points, on any number of ranks, to the file of one run."""
@@ -242,7 +281,7 @@ def merged_parts(folder, options, chance):
             f"{demand_little_memory(plane, merge)} to merge")
 
 
-PARTS = {"ranks": many_ranks, "bytes": equal_bytes, "points": many_points, "beyond": beyond_32_bits,
+PARTS = {"ranks": many_ranks, "bytes": equal_bytes, "nodes": nodes, "points": many_points, "beyond": beyond_32_bits,
          "merged": merged_parts}
 
 

@@ -8,10 +8,14 @@ from launching import add_program_argument, launcher, measured_run, program
 from whole_run import METHODS, settings
 
 EXPLANATION = """\
-Measures on two ranks the time that rank 0 takes to answer a request and the time for a tile of
-jobs/figure_07a.toml, regions only. With these, it simulates runs of 100 and of 1000 tiles per rank,
-with the dealer of the program, on up to 100,000 ranks: the share of the time of all ranks that is
-spent on tiles, and the share of rank 0 on answers. In brackets: at most 16 tiles per range."""
+Measures the time that rank 0 takes to answer a request and the time for a tile of
+jobs/figure_07a.toml, regions only, on two ranks, each a node of its own, and the time to take a tile
+from a pool that the cores of this host share. With these, and with answers that take 1 and 6 us, it
+simulates runs of 100 and of 1000 tiles per rank on up to 100,000 ranks, on nodes of 1, 64 and 128
+ranks: the share of the time of all ranks that is spent on tiles, and the share of rank 0 on
+answers."""
+
+ANSWERS = (1e-6, 6e-6)  # [s]
 
 
 def add_arguments(parser):
@@ -22,8 +26,9 @@ def add_arguments(parser):
 
 
 def measured_costs(overturn, method):
-    """The seconds per answer and per tile, on two ranks."""
-    _, sidecar = measured_run(overturn, 2048, settings(method), launcher(2))
+    """The seconds per answer and per tile, on two nodes of one rank."""
+    _, sidecar = measured_run(overturn, 2048, settings(method),
+                              ["env", "OVERTURN_RANKS_PER_NODE=1", *launcher(2)])
     tiles = sum(rank["tiles"] for rank in sidecar["ranks"])
     busy = sum(rank["compute_seconds"] + rank["write_seconds"] for rank in sidecar["ranks"])
     return sidecar["dealing_seconds"] / sidecar["requests"], busy / tiles
@@ -33,13 +38,15 @@ def run(options):
     overturn = program(options)
     simulate = build(options.build, "bench_scale")
     for method in METHODS:
-        answer, tile = measured_costs(overturn, method)
-        print(f"\n{method}: an answer takes {1e6 * answer:.2f} us, a tile {1e3 * tile:.2f} ms")
-        print("   ranks  tiles each  seconds         in tiles   rank 0 answering")
-        found = run_or_fail([simulate, repr(answer), repr(tile), options.most], "simulating",
-                            stdout=subprocess.PIPE)
-        for row in json.loads(found.stdout):
-            print(f"{row['ranks']:8} {row['tiles_per_rank']:11} {row['seconds']:8.3g}"
-                  f"{100 * row['efficiency']:8.1f} % ({100 * row['fixed_efficiency']:5.1f})"
-                  f"{100 * row['answering']:9.1f} % ({100 * row['fixed_answering']:5.1f})",
-                  flush=True)
+        measured, tile = measured_costs(overturn, method)
+        for answer in (measured, *ANSWERS):
+            found = json.loads(run_or_fail([simulate, repr(answer), repr(tile), options.most],
+                                           "simulating", stdout=subprocess.PIPE).stdout)
+            print(f"\n{method}: an answer takes {1e6 * answer:.2f} us"
+                  f"{' (measured)' if answer == measured else ''}, a tile {1e3 * tile:.2f} ms, "
+                  f"taking it {1e9 * found['take']:.0f} ns")
+            print("   ranks  per node  tiles each  seconds  in tiles  rank 0 answering")
+            for row in found["runs"]:
+                print(f"{row['ranks']:8}{row['ranks_per_node']:10}{row['tiles_per_rank']:12}"
+                      f"{row['seconds']:9.3g}{100 * row['efficiency']:8.1f} %"
+                      f"{100 * row['answering']:16.1f} %", flush=True)

@@ -44,8 +44,7 @@ def record(overturn, method, side, ranks, rounds):
             "writing_share": write / all_time,
             "idle_share": sum(max(busy) - part for part in busy) / all_time,
             "tiles": sum(rank["tiles"] for rank in sidecar["ranks"]),
-            "compute_seconds": compute, "requests": sidecar["requests"],
-            "dealing_seconds": sidecar["dealing_seconds"]}
+            "compute_seconds": compute}
 
 
 def print_shares(found):
@@ -55,18 +54,6 @@ def print_shares(found):
           f"writing {100 * found['writing_share']:.1f} %, "
           f"waiting for the last tile {100 * found['idle_share']:.1f} %, "
           f"start, end and messages {100 * rest:.1f} %", flush=True)
-
-
-def print_saturation(found):
-    """Prints the number of ranks at which rank 0 would only answer requests."""
-    if not found["requests"]:
-        return
-    answer = found["dealing_seconds"] / found["requests"]
-    tile = found["compute_seconds"] / found["tiles"]
-    print(f"rank 0 answers a request in {1e6 * answer:.1f} us, {1 / answer:.2g} per second. A tile "
-          f"of {found['method']} takes {1e3 * tile:.2f} ms: rank 0 would be\nsaturated by "
-          f"{tile / answer:.2g} ranks that request single tiles; with more, ranges are longer.",
-          flush=True)
 
 
 def run(options):
@@ -84,11 +71,8 @@ def run(options):
     print(f"\n{SIDES[-1]} x {SIDES[-1]} points, regions only", flush=True)
     many = [record(overturn, method, SIDES[-1], options.ranks, options.rounds)
             for method in METHODS]
-    largest = [found for found in curve if found["side"] == SIDES[-1]] + many
-    for found in largest:
+    for found in [found for found in curve if found["side"] == SIDES[-1]] + many:
         print_shares(found)
-    for found in many:
-        print_saturation(found)
     memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
     print(f"largest memory use of a rank: {memory:.0f} MiB", flush=True)
     write_results(options.output, {"benchmark": "run", "seconds_of_100_x_100": small, "most_memory_mib": memory,

@@ -1,9 +1,11 @@
-// The farm: rank 0 hands out ranges of tile numbers, and computes tiles between the requests. The
-// other ranks request one range ahead, so that no rank waits. Messages hold ranges and the workers'
-// state (tiles done, asked to stop), never values of tiles.
+// The farm: rank 0 hands out ranges of tile numbers to the nodes, whose ranks, rank 0 among them,
+// take tiles from a pool in the memory that they share. A node requests ranges ahead, so that no
+// rank waits. Messages hold ranges and the state of nodes (tiles done, asked to stop), never values
+// of tiles.
 #pragma once
 
 #include "overturn/farm/mpi_session.hpp"
+#include "overturn/farm/node.hpp"
 #include "overturn/problem/tile.hpp"
 
 #include <chrono>
@@ -38,7 +40,7 @@ struct RankShare {
 
 /// The cost of handing out the tiles.
 struct DispatchCost {
-    std::int64_t requests = 0; ///< answered by rank 0
+    std::int64_t requests = 0; ///< of other nodes than that of rank 0
     double seconds = 0;        ///< spent on the answers
 };
 
@@ -49,15 +51,15 @@ struct FarmReport {
     DispatchCost dispatch;        ///< rank 0 only
 };
 
-/// Computes and writes each of the tiles once, on some rank. Collective.
+/// Computes and writes each of the tiles once, on some rank. Collective. A node serves one call.
 ///
 /// tiles: strictly ascending numbers, on rank 0; ignored elsewhere. A rank that is asked to stop
-/// finishes or drops its current tile; the others finish the ranges that they were given before
-/// rank 0 received the stop. An exception leaves farm_out on one rank only, so the caller must
-/// abort the session. Throws Error if rank 0 receives nothing from a worker for `patience`, or if a
-/// worker waits longer than that for an answer from rank 0.
-FarmReport farm_out(const MpiSession& session, const std::vector<std::int64_t>& tiles,
-                    const TileWork& tile_work, const StopRequest& stop,
-                    std::chrono::seconds patience);
+/// finishes or drops its current tile, and so do the others of its node; other nodes finish the
+/// tiles that they were given before rank 0 received the stop. An exception leaves farm_out on one
+/// rank only, so the caller must abort the session. Throws Error if a rank gives the leader of its
+/// node, or a leader rank 0, or these those, no sign of life for `patience`.
+FarmReport farm_out(const MpiSession& session, const Node& node,
+                    const std::vector<std::int64_t>& tiles, const TileWork& tile_work,
+                    const StopRequest& stop, std::chrono::seconds patience);
 
 } // namespace overturn

@@ -47,6 +47,9 @@ public:
         return values;
     }
 
+    /// The host of this rank.
+    const std::string& host() const { return host_; }
+
     /// The host of each rank, on rank 0; empty elsewhere.
     const std::vector<std::string>& hosts() const { return hosts_; }
 
@@ -62,6 +65,7 @@ private:
     bool finalizes_ = true;
     int rank_ = 0;
     int size_ = 1;
+    std::string host_;
     std::vector<std::string> hosts_;
 };
 
