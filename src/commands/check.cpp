@@ -53,8 +53,9 @@ void print_time(const Problem& problem, const RunEstimate& estimate)
         estimate.ranks == 1 ? "one rank" : fmt::format("{} ranks", estimate.ranks);
     const std::string parts =
         estimate.creation_speed
-            ? fmt::format(": {} to create the file, {} to compute",
+            ? fmt::format(": {} to create the file at {}/s, {} to compute",
                           human_duration(estimate.creation_seconds),
+                          human_bytes(*estimate.creation_speed),
                           human_duration(estimate.farm.seconds))
             : ", without the creation of the file, since the speed of the disk is unknown";
     print_row("time",
@@ -89,6 +90,11 @@ void print_time(const Problem& problem, const RunEstimate& estimate)
 std::vector<std::string> shortage(double bytes, const DiskSpace& space, const std::string& folder)
 {
     const auto available = space.available();
+    std::error_code none;
+    if (!std::filesystem::is_directory(folder, none)) {
+        return {
+            fmt::format("there is no folder \"{}\": create it, or choose another with -o", folder)};
+    }
     if (!available || bytes <= *available) {
         return {};
     }

@@ -130,13 +130,13 @@ double own_memory()
 }
 
 /// What a rank needs beyond that [bytes], measured with Open MPI 4.1 and HDF5 1.10 on 1 to 64 ranks
-/// of one host, and 1 to 10^6 tiles.
+/// of one host, and 1 to 10^6 tiles of one and two fields.
 double memory_of_libraries(const Problem& problem, int ranks, std::int64_t tiles)
 {
     constexpr double mpi = 12e6;
     constexpr double per_rank_of_host = 9e4;
     constexpr double per_chunk = 265;
-    constexpr double most_of_chunks = 25e6; // the size of the cache of HDF5
+    constexpr double most_of_chunks = 18e6; // the size of the cache of HDF5, see file_access()
     const double chunks = double(tiles) * double(problem.fields.size());
     return mpi + per_rank_of_host * std::min(ranks, assumed_ranks_of_host) +
            std::min(per_chunk * chunks, most_of_chunks);

@@ -6,12 +6,14 @@
 #include "report/sidecar.hpp"
 
 #include "overturn/file/stored_result.hpp"
+#include "overturn/text/error.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 namespace overturn {
 
@@ -70,7 +72,9 @@ void print_axes_and_tiles(const StoredResult& stored)
                   fmt::format("the values of {} have changed", fmt::join(damaged, ", ")));
     }
     for (const Field field : tiles.fields) {
-        print_row("field", fmt::format("{}, {}", name_of(field), name_of(traits_of(field).type)));
+        const bool is_single = field.precision == Precision::single_precision;
+        print_row("field", fmt::format("{}, {}", name_of(field),
+                                       is_single ? "float32" : name_of(traits_of(field).type)));
     }
     const bool is_boundary = stored.origin().kind == FileKind::boundary;
     const std::string tile = tile_text(tiles.tile_shape);
@@ -86,10 +90,27 @@ void print_axes_and_tiles(const StoredResult& stored)
     }
     if (tiles.tiles_done < tiles.tiles) {
         const auto run = last_run_of(stored.path());
-        print_row("progress", progress_line(progress_of(stored, run), run));
-        print_row("unfinished", "Resume with " + command_to_complete(stored));
+        const FileProgress progress = progress_of(stored, run);
+        print_row("progress", progress_line(progress, run));
+        const bool is_running = progress.state == RunState::running;
+        print_row("unfinished",
+                  (is_running ? "If that run ends early, resume with " : "Resume with ") +
+                      command_to_complete(stored));
     } else if (tiles.part) {
         print_row("unfinished", "Join all parts with overturn merge");
+    }
+}
+
+/// Throws Error if a run has not yet created the file.
+void expect_created(const std::string& path)
+{
+    std::error_code none;
+    const std::string part = path + ".part";
+    if (!std::filesystem::exists(path, none) && std::filesystem::exists(part, none)) {
+        throw Error(exit_code::output,
+                    "\"{}\" does not exist yet: a run is creating \"{}\" ({} so far), or was "
+                    "killed meanwhile. It computes nothing before.",
+                    path, part, human_bytes(double(std::filesystem::file_size(part, none))));
     }
 }
 
@@ -97,6 +118,7 @@ void print_axes_and_tiles(const StoredResult& stored)
 
 int info(const InfoOptions& options)
 {
+    expect_created(options.path);
     const GuardedReading guarded(options.path);
     const StoredResult stored(options.path);
     if (options.json) {

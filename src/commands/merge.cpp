@@ -79,7 +79,11 @@ int merge(const MergeOptions& options)
     const std::string& output = options.output;
     const OutputLock lock(output);
     allow_open_files(options.parts.size());
-    auto parts = mapped(options.parts, [&](const std::string& path) { return opened(path, lock); });
+    std::vector<std::string> paths = options.parts;
+    std::erase_if(paths, [](const std::string& path) { return !std::filesystem::exists(path); });
+    // If none exists, the message is that on the first one.
+    auto parts = mapped(paths.empty() ? options.parts : paths,
+                        [&](const std::string& path) { return opened(path, lock); });
     expect_all_parts(parts);
     if (is_merged(output, parts.front(), lock)) {
         print_line(output + " is already complete.");
@@ -89,7 +93,7 @@ int merge(const MergeOptions& options)
     const TilesSummary& tiles = parts.front().tiles();
     std::uint64_t bytes = 0;
     {
-        Steps steps(tiles.tiles_of_job, "tiles");
+        Steps steps(tiles.tiles_of_job, "tiles checked");
         for (const StoredResult& part : parts) {
             const GuardedReading guarded(part.path(), lock.path());
             expect_undamaged(part, [&] { steps.next(); });
@@ -98,7 +102,7 @@ int merge(const MergeOptions& options)
     }
     {
         const GuardedReading guarded(parts.front().path(), lock.path(), bytes);
-        Steps steps(tiles.tiles_of_job * std::ssize(tiles.fields), "chunks");
+        Steps steps(tiles.tiles_of_job * std::ssize(tiles.fields), "chunks written");
         merge_parts(parts, output, [&] { steps.next(); });
     }
     print_line(fmt::format("{}: merged {} {} from {} {}", output, tiles.tiles_of_job,

@@ -3,6 +3,7 @@
 #include "overturn/text/error.hpp"
 #include "overturn/text/parse_number.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -14,11 +15,11 @@ int most_ranks_per_node()
 {
     constexpr int unlimited = std::numeric_limits<int>::max();
     const char* const text = std::getenv("OVERTURN_RANKS_PER_NODE");
-    if (text == nullptr) {
+    if (text == nullptr || *text == 0) {
         return unlimited;
     }
     const ParsedNumber number = parse_number(text);
-    if (!is_whole(number, text) || !(number.value >= 1) || number.value > unlimited ||
+    if (!is_whole(number, text) || !(number.value >= 1) ||
         number.value != std::floor(number.value)) {
         throw Error(
             exit_code::usage,
@@ -26,7 +27,7 @@ int most_ranks_per_node()
             "number from 1: the most ranks that share a pool of tiles.",
             text);
     }
-    return int(number.value);
+    return int(std::min<double>(number.value, unlimited));
 }
 
 Node::Node(const MpiSession& session)

@@ -39,6 +39,14 @@ Handle file_access()
 {
     Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     check(H5Pset_file_locking(access, false, true));
+    // The cache of the index of chunks is limited by its size in the file; in memory, an entry
+    // takes four times as much. By default it may grow to 32 MiB, which are 140 MB in each rank.
+    H5AC_cache_config_t cache = {};
+    cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+    check(H5Pget_mdc_config(access, &cache));
+    cache.max_size = cache.initial_size;
+    cache.flash_incr_mode = H5C_flash_incr__off;
+    check(H5Pset_mdc_config(access, &cache));
     return access;
 }
 

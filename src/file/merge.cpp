@@ -75,7 +75,7 @@ void expect_part_of_this_program(const StoredResult& stored)
 }
 
 /// Items that are listed in a message, so that it stays short.
-constexpr std::size_t most_listed = 20;
+constexpr std::size_t most_listed = 100;
 
 /// The items, and ", ..." if there are more than are listed.
 template <class Item>
@@ -86,7 +86,15 @@ std::string listed(std::vector<Item> items)
     return fmt::format("{}{}", fmt::join(items, ", "), are_more ? ", ..." : "");
 }
 
-/// Throws Error if a part is missing, or given twice. parts: sorted.
+/// "3 parts are unfinished: 4, 5, 8"
+std::string words_on(const std::vector<std::int64_t>& parts, std::string_view what)
+{
+    return parts.empty() ? ""
+                         : fmt::format("{} {} {}: {}", parts.size(),
+                                       parts.size() == 1 ? "is" : "are", what, listed(parts));
+}
+
+/// Throws Error if a part is missing, unfinished, or given twice. parts: sorted.
 void expect_each_part(const std::vector<StoredResult>& parts)
 {
     const auto same = std::ranges::adjacent_find(
@@ -95,38 +103,27 @@ void expect_each_part(const std::vector<StoredResult>& parts)
         refuse("\"{}\" and \"{}\" are both {}. Give one of them.", same->path(),
                std::next(same)->path(), words_of(part_of(*same)));
     }
-    std::vector<std::int64_t> missing;
     const std::int64_t count = part_of(parts.front()).count;
+    std::vector<std::int64_t> missing;
+    std::vector<std::int64_t> unfinished;
     auto given = parts.begin();
-    for (std::int64_t number = 1; number <= count && missing.size() <= most_listed; ++number) {
-        if (given != parts.end() && part_of(*given).number == number) {
-            ++given;
-        } else {
+    for (std::int64_t number = 1; number <= count; ++number) {
+        if (given == parts.end() || part_of(*given).number != number) {
             missing.push_back(number);
+            continue;
         }
-    }
-    if (!missing.empty()) {
-        refuse("of {} parts, {} {} missing: {}. Give all files, or compute the missing ones with "
-               "overturn run --part.",
-               count, count - std::ssize(parts), count - std::ssize(parts) == 1 ? "is" : "are",
-               listed(missing));
-    }
-}
-
-void expect_complete(const std::vector<StoredResult>& parts)
-{
-    std::vector<std::string> unfinished;
-    for (const StoredResult& part : parts) {
-        const TilesSummary& tiles = part.tiles();
-        if (tiles.tiles_done < tiles.tiles) {
-            unfinished.push_back(fmt::format("\"{}\" lacks {} of {} tiles", part.path(),
-                                             tiles.tiles - tiles.tiles_done, tiles.tiles));
+        if (given->tiles().tiles_done < given->tiles().tiles) {
+            unfinished.push_back(number);
         }
+        ++given;
     }
-    if (!unfinished.empty()) {
-        refuse("parts are unfinished: {}. Run the same {} again to complete {}, then merge.",
-               listed(unfinished), unfinished.size() == 1 ? "command" : "commands",
-               unfinished.size() == 1 ? "it" : "them");
+    std::vector<std::string> found{words_on(missing, "missing"),
+                                   words_on(unfinished, "unfinished")};
+    std::erase(found, "");
+    if (!found.empty()) {
+        refuse("of {} parts, {}. Run overturn run --part for each of these, which resumes "
+               "unfinished ones, and give all files.",
+               count, fmt::join(found, ", and "));
     }
 }
 
@@ -215,7 +212,6 @@ void expect_all_parts(std::vector<StoredResult>& parts)
     }
     std::ranges::sort(parts, {}, [](const auto& part) { return part_of(part).number; });
     expect_each_part(parts);
-    expect_complete(parts);
 }
 
 void expect_merged(const StoredResult& merged, const StoredResult& part)

@@ -69,9 +69,12 @@ void expect_place_for_sidecar(const std::string& spectrum_path)
 
 void write_sidecar(const std::string& spectrum_path, std::string_view text, Syncing syncing)
 {
-    write_text(spectrum_path + ".json", sidecar, text,
-               fmt::format(" The computed tiles are in \"{}\" nevertheless.", spectrum_path),
-               syncing);
+    write_text(
+        spectrum_path + ".json", sidecar, text,
+        fmt::format(" The computed tiles are in \"{0}\" nevertheless: overturn info {0} says "
+                    "whether some are missing.",
+                    spectrum_path),
+        syncing);
 }
 
 } // namespace overturn

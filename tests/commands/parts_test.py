@@ -1,6 +1,8 @@
 """Parts of a job, `run --part`, and the file that `overturn merge` makes of them. Also requires the library
 FAULTY_DISK of tests/faults in the environment."""
 
+import json
+import math
 import re
 import signal
 import unittest
@@ -164,7 +166,11 @@ class APart(ScratchWithParts):
             self.assertEqual(process.returncode, 85 if end == signal.SIGUSR1 else -end, output)
         done = self.tiles_done(name)
         self.assert_exit(self.overturn("info", name), 0, f"overturn run JOB.toml --part 2/2 -o {name}")
-        self.assert_exit(self.merge([name]), 74, "of 2 parts, 1 is missing: 1.")
+        found = json.loads(self.overturn("info", name, "--json").stdout)
+        points = math.prod(axis["size"] for axis in found["axes"])
+        self.assertEqual([found[key] for key in ("part", "parts", "tiles", "tiles_done", "items_all", "items_done")],
+                         [2, 2, 9, done, points // 2, points * done // 18])
+        self.assert_exit(self.merge([name]), 74, "of 2 parts, 1 is missing: 1, and 1 is unfinished: 2.")
         self.assert_exit(self.overturn(*second, ranks=2), 0, f"part 2 of 2: resuming: {done} of 9 tiles done")
         self.assert_exit(self.overturn(*job, "--part", "1/2", ranks=2), 0)
         self.assert_exit(self.merge([self.part(1, 2), name]), 0)
@@ -201,6 +207,7 @@ class AMerge(ScratchWithParts):
     def test_is_refused_with_the_reason(self):
         first, second, third = self.parts(3)
         self.assert_not_merged(["of 3 parts, 1 is missing: 2."], first, third)
+        self.assert_not_merged(["of 3 parts, 1 is missing: 2."], first, "nowhere.h5", third)
         self.assert_not_merged([f'"{first}" and "{first}" are both part 1 of 3'], first, first, second, third)
         self.assert_not_merged(["whole.h5", "not of a part of it"], first, second, third, "whole.h5")
         self.assert_not_merged(["small.toml", "is not an HDF5 file"], "small.toml")
@@ -226,7 +233,7 @@ class AMerge(ScratchWithParts):
         with h5py.File(self.folder / self.part(2, 3), "r+") as file:
             tile = np.flatnonzero(file["run/checksum"][:])[-1]
             file["run/checksum"][tile] = 0
-        self.assert_not_merged([f'"{self.part(2, 3)}" lacks 1 of 8 tiles'], *self.parts(3))
+        self.assert_not_merged(["of 3 parts, 1 is unfinished: 2."], *self.parts(3))
 
     def change_a_value(self):
         with h5py.File(self.folder / self.part(2, 3), "r+") as file:

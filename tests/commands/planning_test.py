@@ -14,7 +14,7 @@ FEW_LINES = ("--set=plane.frequency={ first = 4, last = 8, count = 3 }", "--set=
 BYTES = {"region": 1, "angle": 8, "velocity": 8, "margin": 8, "impacts": 2, "status": 1}
 POINTS = 70 * 66
 INFO = {"file", "bytes", "contains", "title", "program_version", "program_commit", "axes", "fields", "tiles",
-        "tiles_done", "items", "items_all", "items_done", "state", "items_per_second", "elapsed_seconds", "seconds_left",
+        "part", "parts", "tiles_done", "items", "items_all", "items_done", "state", "items_per_second", "elapsed_seconds", "seconds_left",
         "refreshed_seconds_ago", "ranks"}  # fmt: skip
 NUMBERS = {"items_all", "tiles", "file_bytes", "ranks", "seconds", "core_hours", "tile_share", "start_seconds",
            "seconds_per_tile", "tiles_sampled", "memory_bytes", "memory_bytes_of_rank_0"}  # fmt: skip

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <string>
 #include <thread>
 #include <vector>
@@ -302,9 +303,13 @@ TEST(Node, HasTheRanksOfTheHostOrAsManyAsTheEnvironmentAllows)
 
 TEST(Node, RefusesAWrongNumberOfRanks)
 {
-    for (const char* const wrong : {"", "0", "-1", "1.5", "two", "2 ", "1e10", "nan"}) {
+    for (const char* const wrong : {"0", "-1", "1.5", "two", "2 ", "1e999", "nan"}) {
         setenv("OVERTURN_RANKS_PER_NODE", wrong, 1);
         EXPECT_THROW(most_ranks_per_node(), Error) << wrong;
+    }
+    for (const char* const unlimited : {"", "99999999999"}) {
+        setenv("OVERTURN_RANKS_PER_NODE", unlimited, 1);
+        EXPECT_EQ(most_ranks_per_node(), std::numeric_limits<int>::max());
     }
     unsetenv("OVERTURN_RANKS_PER_NODE");
 }

@@ -68,7 +68,7 @@ inline TileFields sample_values(const Job& job, const Tile& tile)
                     const std::int64_t position = position_of(i);
                     list[std::size_t(i)] = Value(position % 251);
                     if constexpr (std::is_floating_point_v<Value>) {
-                        list[std::size_t(i)] = double(position) + number / 8;
+                        list[std::size_t(i)] = Value(double(position) + number / 8);
                     }
                 }
             },

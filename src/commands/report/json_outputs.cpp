@@ -332,6 +332,8 @@ std::string json_of(const StoredResult& stored, const std::optional<LastRun>& ru
     for (const Field field : tiles.fields) {
         fields.push_back(name_of(field));
     }
+    members["part"] = tiles.part ? Json(tiles.part->number) : Json();
+    members["parts"] = tiles.part ? Json(tiles.part->count) : Json();
     members["tiles"] = tiles.tiles;
     members["tiles_done"] = tiles.tiles_done;
     members["items"] = progress.items;

@@ -168,7 +168,7 @@ std::optional<LastRun> last_run_of(const std::string& path)
 FileProgress progress_of(const StoredResult& stored, const std::optional<LastRun>& run)
 {
     const TilesSummary& tiles = stored.tiles();
-    Items items{tiles.tiles, "lines"};
+    Items items{tiles.tiles_of_job, "lines"};
     if (stored.origin().kind == FileKind::spectrum) {
         items = {1, "points"};
         for (const AxisSummary& axis : tiles.axes) {
@@ -180,8 +180,8 @@ FileProgress progress_of(const StoredResult& stored, const std::optional<LastRun
                        .elapsed = run ? std::optional(run->elapsed) : std::nullopt,
                        .seconds_left = {}};
     found.progress.items = items.name;
-    found.progress.all = items.count;
-    found.progress.done = items.in(tiles.tiles_done, tiles.tiles);
+    found.progress.all = items.in(tiles.tiles, tiles.tiles_of_job);
+    found.progress.done = items.in(tiles.tiles_done, tiles.tiles_of_job);
     if (tiles.tiles_done == tiles.tiles) {
         found.state = RunState::finished;
         found.seconds_left = 0;
