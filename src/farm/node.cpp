@@ -48,11 +48,11 @@ Node::Node(const MpiSession& session)
     const std::size_t bytes = sizeof(NodeState) + std::size_t(size_) * sizeof(RankState);
     void* memory = nullptr;
     MPI_Win_allocate_shared(is_leader() ? MPI_Aint(bytes) : 0, 1, MPI_INFO_NULL, communicator_,
-                            &memory, &window_);
+                            static_cast<void*>(&memory), &window_);
     MPI_Aint size = 0;
     int unit = 0;
     constexpr int rank_of_leader = 0;
-    MPI_Win_shared_query(window_, rank_of_leader, &size, &unit, &memory);
+    MPI_Win_shared_query(window_, rank_of_leader, &size, &unit, static_cast<void*>(&memory));
     state_ = static_cast<NodeState*>(memory);
     ranks_ = reinterpret_cast<RankState*>(state_ + 1);
     if (is_leader()) {

@@ -4,6 +4,8 @@ Also requires the library FAULTY_DISK of tests/faults in the environment."""
 import errno
 import json
 import os
+import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -201,11 +203,17 @@ class AFullDisk(OnSmallDisk):
         self.assert_exit(result, 74, "not writable: read-only file system")
 
 
+def handles(pid, number):
+    """Whether a process that runs has a handler for a signal."""
+    caught = re.search(r"^SigCgt:\s*(\w+)$", pathlib.Path(f"/proc/{pid}/status").read_text(), re.MULTILINE)
+    return bool(int(caught[1], 16) >> number - 1 & 1)
+
+
 class ASlowDisk(OnFaultyDisk):
     """A disk from which a complete file is read for seconds before a run knows that no tile is
     missing: its metadata, then the values of all tiles."""
 
-    DELAYS = (0.2, 0.6, 1.2)  # of the signal [s]
+    DELAYS = (0, 0.4, 1)  # of the signal, after the program handles it [s]
 
     def setUp(self):
         super().setUp()
@@ -214,6 +222,8 @@ class ASlowDisk(OnFaultyDisk):
     def end_by(self, number, delay):
         settings = {name: str(value) for name, value in self.settings_of({"READ_TAKES": 12}).items()}
         with self.start("run", "small.toml", "-o", "out.h5", variables=settings) as run:
+            while not handles(run.pid, signal.SIGUSR1):  # the start may take long
+                time.sleep(0.001)
             time.sleep(delay)
             run.send_signal(number)
             sent = time.monotonic()
