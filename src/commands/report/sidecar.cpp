@@ -84,7 +84,8 @@ void Sidecar::update(const ProgressState& progress)
     next_ = progress.seconds + update_interval;
     try {
         write_sidecar(path_, text(RunState::running, nullptr), Syncing::no);
-    } catch (const std::exception&) { // see the header
+    } catch (const std::exception&) {
+        return; // see the header
     }
 }
 
