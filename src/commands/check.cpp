@@ -87,7 +87,8 @@ void print_time(const Problem& problem, const RunEstimate& estimate)
 }
 
 /// A warning if it is known that the file does not fit.
-std::vector<std::string> shortage(double bytes, const DiskSpace& space, const std::string& folder)
+std::vector<std::string> warnings_on_space(double bytes, const DiskSpace& space,
+                                           const std::string& folder)
 {
     const auto available = space.available();
     std::error_code none;
@@ -122,7 +123,7 @@ int check(const CheckOptions& options)
     const std::string folder = (none ? std::filesystem::path(path) : file).parent_path().string();
     const DiskSpace space = space_in(folder);
     std::vector<std::string> warnings = warnings_on(job);
-    const auto add = shortage(double(result_bytes(job)), space, folder);
+    const auto add = warnings_on_space(double(result_bytes(job)), space, folder);
     warnings.insert(warnings.end(), add.begin(), add.end());
     if (options.json) {
         const RunEstimate estimate =

@@ -12,17 +12,12 @@ namespace overturn {
 /// The duties of a rank that does not lead its node. Throws Error if the leader is silent.
 class Member {
 public:
-    Member(const MpiSession& session, const Node& node, const StopRequest& stop,
-           std::chrono::seconds patience)
-        : session_(session), node_(node), stop_(stop), patience_(patience), silence_(patience, 1)
+    Member(const MpiSession& session, const Node& node, std::chrono::seconds patience)
+        : session_(session), node_(node), patience_(patience), silence_(patience, 1)
     {}
 
     void attend()
     {
-        ++node_.own().signs_of_life;
-        if (stop_.requested()) {
-            node_.state().stop = true;
-        }
         if (silence_.is_due() && silence_.silent_rank([this](std::size_t) {
                 return node_.leader().signs_of_life.load();
             })) {
@@ -33,7 +28,6 @@ public:
 private:
     const MpiSession& session_;
     const Node& node_;
-    const StopRequest& stop_;
     std::chrono::seconds patience_;
     SilenceCheck silence_;
 };
@@ -43,19 +37,15 @@ private:
 class Leader {
 public:
     /// report_interval: a message is sent at least so often.
-    Leader(const MpiSession& session, const Node& node, Link& link, const StopRequest& stop,
-           std::chrono::seconds patience, Clock::duration report_interval)
-        : session_(session), node_(node), link_(link), stop_(stop), patience_(patience),
+    Leader(const MpiSession& session, const Node& node, Link& link, std::chrono::seconds patience,
+           Clock::duration report_interval)
+        : session_(session), node_(node), link_(link), patience_(patience),
           report_{report_interval}, silence_(patience, node.ranks().size())
     {}
 
     void attend()
     {
         NodeState& state = node_.state();
-        ++node_.own().signs_of_life;
-        if (stop_.requested()) {
-            state.stop = true;
-        }
         if (const auto answer = link_.answer()) {
             accept(*answer);
         }
@@ -78,7 +68,7 @@ private:
     void accept(const Answer& answer)
     {
         waits_ = false;
-        ++answers_;
+        ++signs_of_rank_0_;
         node_.state().ended = answer.is_end_of_work;
         tiles_of_last_answer_ = 0;
         for (const TileRange& range : answer.ranges) {
@@ -114,12 +104,12 @@ private:
         link_.send(report);
     }
 
-    /// In the place of its own signs are those of rank 0: the answers that it owes.
+    /// In the place of its own signs are those of rank 0, which owes none unless a request waits.
     void check_silence()
     {
+        signs_of_rank_0_ += waits_ ? 0 : 1;
         const auto signs = [this](std::size_t i) {
-            answers_ += waits_ ? 0 : 1;
-            return i == 0 ? answers_ : node_.ranks()[i].signs_of_life.load();
+            return i == 0 ? signs_of_rank_0_ : node_.ranks()[i].signs_of_life.load();
         };
         const auto silent = silence_.silent_rank(signs);
         if (silent && *silent == 0) {
@@ -133,13 +123,12 @@ private:
     const MpiSession& session_;
     const Node& node_;
     Link& link_;
-    const StopRequest& stop_;
     std::chrono::seconds patience_;
     IntervalTimer report_;
     SilenceCheck silence_;
     NodeMessage reported_;
     bool waits_ = false; ///< for an answer
-    std::int64_t answers_ = 0;
+    std::int64_t signs_of_rank_0_ = 0;
     std::int64_t tiles_of_last_answer_ = 0;
 };
 

@@ -35,14 +35,21 @@ void compute_and_write(std::int64_t number, const TileWork& tile_work,
     ++share.tiles;
 }
 
-/// Takes tiles from the pool of the node, until the leader has ended the work. attend: the other
-/// duties of the rank.
+/// Takes tiles from the pool of the node, until the leader has ended the work. attend_to_others:
+/// the duties of the rank to other ranks.
 RankShare compute_tiles(const Node& node, const TileWork& tile_work, const StopRequest& stop,
-                        const std::function<void()>& attend)
+                        const std::function<void()>& attend_to_others)
 {
     RankShare share;
     NodeState& state = node.state();
     RankState& own = node.own();
+    const auto attend = [&] {
+        ++own.signs_of_life;
+        if (stop.requested()) {
+            state.stop = true;
+        }
+        attend_to_others();
+    };
     IntervalTimer attention{attention_interval};
     // The computation of a tile calls it regularly.
     const DropRequested drop_requested = [&] {
@@ -81,7 +88,7 @@ FarmReport farm_out(const MpiSession& session, const Node& node,
     if (session.rank() == 0) {
         Coordinator coordinator(session, node.leaders(), tiles, tile_work, stop, patience);
         LinkWithinRank0 link(coordinator);
-        Leader leader(session, node, link, stop, patience, message_interval);
+        Leader leader(session, node, link, patience, message_interval);
         report.ranks = {compute_tiles(node, tile_work, stop, [&] {
             coordinator.communicate();
             leader.attend();
@@ -91,11 +98,11 @@ FarmReport farm_out(const MpiSession& session, const Node& node,
         // Several messages within the timeout, so that some may be late.
         constexpr int messages = 10;
         LinkByMpi link(session.communicator());
-        Leader leader(session, node, link, stop, patience,
+        Leader leader(session, node, link, patience,
                       std::chrono::milliseconds(patience) / messages);
         report.ranks = {compute_tiles(node, tile_work, stop, [&] { leader.attend(); })};
     } else {
-        Member member(session, node, stop, patience);
+        Member member(session, node, patience);
         report.ranks = {compute_tiles(node, tile_work, stop, [&] { member.attend(); })};
     }
     report.ranks = session.gather_on_rank_0(report.ranks[0]);

@@ -86,12 +86,13 @@ std::string listed(std::vector<Item> items)
     return fmt::format("{}{}", fmt::join(items, ", "), are_more ? ", ..." : "");
 }
 
-/// "3 parts are unfinished: 4, 5, 8"
-std::string words_on(const std::vector<std::int64_t>& parts, std::string_view what)
+/// "3 are unfinished: 4, 5, 8"; empty if there are none. parts: numbers, as many as are listed.
+std::string words_on(std::int64_t count, const std::vector<std::int64_t>& parts,
+                     std::string_view what)
 {
-    return parts.empty() ? ""
-                         : fmt::format("{} {} {}: {}", parts.size(),
-                                       parts.size() == 1 ? "is" : "are", what, listed(parts));
+    return count == 0
+               ? ""
+               : fmt::format("{} {} {}: {}", count, count == 1 ? "is" : "are", what, listed(parts));
 }
 
 /// Throws Error if a part is missing, unfinished, or given twice. parts: sorted.
@@ -105,20 +106,22 @@ void expect_each_part(const std::vector<StoredResult>& parts)
     }
     const std::int64_t count = part_of(parts.front()).count;
     std::vector<std::int64_t> missing;
-    std::vector<std::int64_t> unfinished;
     auto given = parts.begin();
-    for (std::int64_t number = 1; number <= count; ++number) {
-        if (given == parts.end() || part_of(*given).number != number) {
+    for (std::int64_t number = 1; number <= count && missing.size() <= most_listed; ++number) {
+        if (given != parts.end() && part_of(*given).number == number) {
+            ++given;
+        } else {
             missing.push_back(number);
-            continue;
         }
-        if (given->tiles().tiles_done < given->tiles().tiles) {
-            unfinished.push_back(number);
-        }
-        ++given;
     }
-    std::vector<std::string> found{words_on(missing, "missing"),
-                                   words_on(unfinished, "unfinished")};
+    std::vector<std::int64_t> unfinished;
+    for (const StoredResult& part : parts) {
+        if (part.tiles().tiles_done < part.tiles().tiles) {
+            unfinished.push_back(part_of(part).number);
+        }
+    }
+    std::vector<std::string> found{words_on(count - std::ssize(parts), missing, "missing"),
+                                   words_on(std::ssize(unfinished), unfinished, "unfinished")};
     std::erase(found, "");
     if (!found.empty()) {
         refuse("of {} parts, {}. Run overturn run --part for each of these, which resumes "
