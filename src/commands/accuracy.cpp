@@ -1,8 +1,8 @@
 #include "commands.hpp"
 #include "prepare_output.hpp"
-#include "report/job.hpp"
 #include "report/print.hpp"
 
+#include "overturn/answers/job_lines.hpp"
 #include "overturn/file/history_and_accuracy_files.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/text/error.hpp"

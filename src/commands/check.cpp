@@ -5,6 +5,7 @@
 #include "report/json_outputs.hpp"
 #include "report/print.hpp"
 
+#include "overturn/answers/job_lines.hpp"
 #include "overturn/file/disk_space.hpp"
 #include "overturn/file/result_writer.hpp"
 #include "overturn/job/job.hpp"

@@ -1,10 +1,10 @@
 // The subcommands, one file each. They return an exit code, and throw an exception on error.
 #pragma once
 
+#include "overturn/answers/assess.hpp"
+#include "overturn/answers/topple.hpp"
 #include "overturn/problem/job_part.hpp"
-#include "overturn/problem/quantity.hpp"
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,50 +63,15 @@ struct HistoryOptions {
 };
 int history(const HistoryOptions& options);
 
-/// A quantity whose values between two ends are searched, instead of those of the strength.
-struct VariedQuantity {
-    const Quantity* quantity;
-    double first;
-    double last;
-};
-
 /// Answers whether one block topples under one motion, and at which peak accelerations.
-struct ToppleOptions {
-    std::map<std::string, double> block; ///< quantities of the block, by name
-    std::optional<double> direction;     ///< [degree]
-    std::string pulse = "one_sine";      ///< its name
-    std::string shape;                   ///< path of its table; empty: none
-    std::optional<double> period;        ///< of the pulse [s]
-    std::string record;                  ///< path; empty: a pulse
-    std::string component;               ///< of the record, its name or number
-    std::optional<double> pga;           ///< over g [1]
-    std::optional<double> scale;         ///< of the record [1]
-    std::optional<double> restitution;
-    std::optional<double> velocity_restitution;   ///< its root
-    std::optional<double> restitution_of_maximum; ///< default, without the others: 1
-    std::vector<std::string> overrides;           ///< of keys of [scene]
-    double pga_max = 5;                           ///< the largest acceleration searched, over g [1]
-    bool without_search = false;                  ///< only the verdict at the asked strength
-    std::optional<VariedQuantity> vary;
+struct ToppleOptions : ToppleRequest {
     bool json = false;
     std::string history; ///< path of a file of the motion; empty: none
 };
 int topple(const ToppleOptions& options);
 
 /// Answers for a list of objects which of them topple, and at which strengths.
-struct AssessOptions {
-    std::string objects;                ///< path of a table of blocks
-    std::vector<std::string> records;   ///< paths; empty: a pulse
-    std::string component;              ///< of the records, its name or number
-    std::string pulse = "one_sine";     ///< its name
-    std::string shape;                  ///< path of its table; empty: none
-    std::vector<double> periods;        ///< of the pulse [s]
-    std::vector<double> directions;     ///< [degree]
-    std::optional<double> pga;          ///< over g [1]
-    std::optional<double> scale;        ///< of the records [1]
-    std::vector<std::string> overrides; ///< of keys of [scene]
-    double pga_max = 5;                 ///< the largest acceleration searched, over g [1]
-    bool fine = false;                  ///< whether strengths are searched as by topple
+struct AssessOptions : AssessRequest {
     bool json = false;
     std::string csv; ///< path of a table; empty: none
 };

@@ -4,12 +4,12 @@
 #include "commands.hpp"
 #include "kernel_choice.hpp"
 #include "prepare_output.hpp"
-#include "report/job.hpp"
 #include "report/print.hpp"
 #include "report/progress.hpp"
 #include "report/result_remarks.hpp"
 #include "report/sidecar.hpp"
 
+#include "overturn/answers/job_lines.hpp"
 #include "overturn/farm/farm.hpp"
 #include "overturn/farm/node.hpp"
 #include "overturn/farm/stop_signals.hpp"

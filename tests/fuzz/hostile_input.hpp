@@ -9,7 +9,7 @@
 
 namespace overturn {
 
-enum class Verdict { accepted, refused };
+enum class Response { accepted, refused };
 
 /// Throws std::logic_error, which no reader throws.
 inline void demand(bool condition, const std::string& otherwise)
@@ -21,22 +21,22 @@ inline void demand(bool condition, const std::string& otherwise)
 
 /// The input may begin with lines "--set KEY=VALUE"; the rest becomes a job file at `path`. Reading
 /// the resolved text of an accepted job must give the same job.
-Verdict use_as_job(std::string_view bytes, const std::string& path);
+Response use_as_job(std::string_view bytes, const std::string& path);
 
 /// The input may begin with lines "unit NAME" and "time_step NUMBER"; the rest becomes a recorded
 /// motion at `path`. An accepted one must be as the header of the reader promises.
-Verdict use_as_record(std::string_view bytes, const std::string& path);
+Response use_as_record(std::string_view bytes, const std::string& path);
 
 /// Reads the input as a table of blocks, and the blocks in it.
-Verdict use_as_table(std::string_view bytes);
+Response use_as_table(std::string_view bytes);
 
 /// Reads any file at `path` as a result file, like overturn info, verify and run.
-Verdict use_as_result_file(const std::string& path);
+Response use_as_result_file(const std::string& path);
 
 /// Writes the bytes to the file at `path` first.
-Verdict use_as_result_file(std::string_view bytes, const std::string& path);
+Response use_as_result_file(std::string_view bytes, const std::string& path);
 
 /// Reads the arguments, one per line.
-Verdict use_as_command_line(std::string_view bytes);
+Response use_as_command_line(std::string_view bytes);
 
 } // namespace overturn

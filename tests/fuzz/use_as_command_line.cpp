@@ -64,7 +64,7 @@ int doctor(const std::string&)
     refuse_to_run();
 }
 
-Verdict use_as_command_line(std::string_view bytes)
+Response use_as_command_line(std::string_view bytes)
 {
     std::vector<std::string> words{"overturn"};
     while (!bytes.empty()) {
@@ -80,10 +80,10 @@ Verdict use_as_command_line(std::string_view bytes)
     arguments.push_back(nullptr); // as for main()
     try {
         const Command command = read_command_line(count, arguments.data());
-        return command.execute ? Verdict::accepted
+        return command.execute ? Response::accepted
                                : throw std::logic_error("a command has nothing to execute");
     } catch (const Error&) {
-        return Verdict::refused;
+        return Response::refused;
     }
 }
 

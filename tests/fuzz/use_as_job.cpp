@@ -48,18 +48,18 @@ void use(const Job& job, const std::string& path)
 
 } // namespace
 
-Verdict use_as_job(std::string_view bytes, const std::string& path)
+Response use_as_job(std::string_view bytes, const std::string& path)
 {
     const UntrappedFloatingPoint overflows; // in jobs that are refused because of it
     const std::vector<std::string> overrides = take_overrides(bytes);
     write_bytes(path, std::string(bytes));
     try {
         use(read_job(path, overrides), path);
-        return Verdict::accepted;
+        return Response::accepted;
     } catch (const Error& error) {
         const std::string message = error.what();
         demand(message.find('\n') == message.npos, "a refusal has more than one line:  " + message);
-        return Verdict::refused;
+        return Response::refused;
     }
 }
 

@@ -52,7 +52,7 @@ void use_component(const RecordComponent& component)
 
 } // namespace
 
-Verdict use_as_record(std::string_view bytes, const std::string& path)
+Response use_as_record(std::string_view bytes, const std::string& path)
 {
     const RecordOptions options = take_options(bytes);
     write_bytes(path, std::string(bytes));
@@ -60,13 +60,13 @@ Verdict use_as_record(std::string_view bytes, const std::string& path)
         const RecordFile file = read_record(path, options);
         demand(!file.components.empty(), "a record has no components");
         std::for_each(file.components.begin(), file.components.end(), use_component);
-        return Verdict::accepted;
+        return Response::accepted;
     } catch (const Error& error) {
         const std::string message = error.what();
         demand(message.starts_with(path + ":"), "a refusal does not name the file: " + message);
         demand(message.ends_with('.') && message.find('\n') == message.npos,
                "a refusal is not one sentence after another: " + message);
-        return Verdict::refused;
+        return Response::refused;
     }
 }
 

@@ -38,7 +38,7 @@ void merge(const StoredResult& stored)
 
 } // namespace
 
-Verdict use_as_result_file(const std::string& path)
+Response use_as_result_file(const std::string& path)
 {
     std::optional<StoredResult> stored;
     const bool is_opened = is_answered([&] { stored.emplace(path); });
@@ -52,10 +52,10 @@ Verdict use_as_result_file(const std::string& path)
     }
     stored.reset();
     is_answered([&] { existing_result(path, job_to_alter()); });
-    return is_verified ? Verdict::accepted : Verdict::refused;
+    return is_verified ? Response::accepted : Response::refused;
 }
 
-Verdict use_as_result_file(std::string_view bytes, const std::string& path)
+Response use_as_result_file(std::string_view bytes, const std::string& path)
 {
     write_bytes(path, std::string(bytes));
     return use_as_result_file(path);

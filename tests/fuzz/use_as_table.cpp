@@ -57,7 +57,7 @@ void use_as_shape(std::string_view bytes, const std::string& name)
 
 } // namespace
 
-Verdict use_as_table(std::string_view bytes)
+Response use_as_table(std::string_view bytes)
 {
     const std::string name = "table.csv";
     use_as_shape(bytes, name);
@@ -67,7 +67,7 @@ Verdict use_as_table(std::string_view bytes)
                "the lines of the rows do not ascend");
         const Grid grid = grid_of({}, columns_of(table));
         demand(grid.points() == table.rows(), "the grid does not have a point for each row");
-        return Verdict::accepted;
+        return Response::accepted;
     } catch (const Error& error) {
         const std::string message = error.what();
         demand(message.starts_with(name + ":") && message.ends_with('.'),
@@ -76,7 +76,7 @@ Verdict use_as_table(std::string_view bytes)
         demand(error.row() >= GivenError::no_row, "a refusal names an impossible row");
         demand(find_quantity(error.quantity()) != nullptr, "a refusal names no quantity");
     }
-    return Verdict::refused;
+    return Response::refused;
 }
 
 } // namespace overturn

@@ -1,8 +1,9 @@
 #include "history.hpp"
 
-#include "job.hpp"
 #include "print.hpp"
-#include "topple_ranges.hpp"
+
+#include "overturn/answers/job_lines.hpp"
+#include "overturn/answers/ranges_text.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,6 @@
 #pragma once
 
 #include "sidecar.hpp"
-#include "topple_answer.hpp"
-#include "varied_answer.hpp"
 
 #include "../estimate.hpp"
 
@@ -15,12 +13,6 @@
 #include <vector>
 
 namespace overturn {
-
-/// The answer of `overturn topple` for the worst direction, and the answers for all.
-std::string json_of(const std::vector<DirectedAnswer>& all, const ToppleOptions& options);
-
-/// The answer of `overturn topple --vary`: the worst verdicts of all directions, and those of each.
-std::string json_of(const std::vector<DirectedRanges>& all, const ToppleOptions& options);
 
 /// The answer of `overturn check`. path: of the result file. space: in its folder.
 std::string json_of(const Job& job, const std::string& path, const DiskSpace& space,

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,11 +39,6 @@ inline void print_axis(std::string_view name, std::int64_t size, double first, d
                           size == 1 ? fmt::to_string(first)
                                     : fmt::format("{} values from {} to {}", size, first, last),
                           unit, is_share ? ", of the maximum" : ""));
-}
-
-inline double in_degrees(double angle)
-{
-    return angle * 180 / std::numbers::pi;
 }
 
 /// Three digits and a prefix: "640", "1.20 k", "3.00 M", "1.00 G".

@@ -1,8 +1,9 @@
 #include "topple_answer.hpp"
 
-#include "job.hpp"
 #include "print.hpp"
-#include "topple_ranges.hpp"
+
+#include "overturn/answers/job_lines.hpp"
+#include "overturn/answers/ranges_text.hpp"
 
 #include <fmt/ranges.h>
 
@@ -163,24 +164,6 @@ void print_block_and_motion(const Job& job, const ToppleOptions& options, std::s
     }
 }
 
-std::vector<std::string> verdict_sentences(const std::vector<DirectedAnswer>& all,
-                                           const ToppleOptions& options)
-{
-    std::vector<std::string> sentences;
-    for (const auto& [job, history, answer] : all) {
-        std::string place;
-        if (all.size() > 1) {
-            place = fmt::format(" in direction {}", answer.direction);
-            place += sentences.empty() ? fmt::format(", worse than {}", all.back().answer.direction)
-                                       : "";
-        }
-        if (answer.verdict) {
-            sentences.push_back(verdict_sentence(answer, options.scale, place));
-        }
-    }
-    return sentences;
-}
-
 void print_answer(const std::vector<DirectedAnswer>& all, const ToppleOptions& options)
 {
     print_question(all, options);
@@ -215,6 +198,45 @@ void print_answer(const std::vector<DirectedAnswer>& all, const ToppleOptions& o
                    undecided > 0 ? fmt::format("Up to {:.2g} %", 100 * undecided) : "None",
                    undecided > 0 ? "are" : "is");
     }
+}
+
+namespace {
+
+std::string steps_text(const Scene& scene, const VariedQuantity& vary)
+{
+    return fmt::format("searched in steps of {:.4g}{}{}; narrower ranges may be missed",
+                       step_of_search(scene, vary), unit_of(*vary.quantity),
+                       scene.motion_traits().is_sensitive
+                           ? ""
+                           : ", halved where the motion indicates more changes");
+}
+
+} // namespace
+
+void print_varied(const std::vector<DirectedRanges>& all, const ToppleOptions& options)
+{
+    const Problem& problem = all.front().job.problem;
+    const VariedQuantity& vary = *options.vary;
+    const auto text = [&](const VerdictRanges& ranges) {
+        return text_of(ranges, decimals_of(ranges, vary.first), most_intervals,
+                       unit_of(*vary.quantity));
+    };
+    print_block_and_motion(all.front().job, options, all.size());
+    if (vary.quantity->role != Role::loss) {
+        const double share = options.restitution_of_maximum.value_or(1);
+        print_row("restitution",
+                  options.restitution || options.velocity_restitution
+                      ? fmt::format("r = {:.4g}", extent_of(all.front().job, "restitution")->first)
+                  : share == 1 ? "r = r_max"
+                               : fmt::format("r = {:.4g} r_max", share));
+    }
+    const VerdictRanges worst = worst_of(all);
+    print_row("verdict", sentence_of(worst, options));
+    print_row("topples", text(worst));
+    for (const DirectedRanges& each : all.size() > 1 ? all : std::vector<DirectedRanges>()) {
+        print_row("", fmt::format("in direction {}: {}", each.direction, text(each.ranges)));
+    }
+    print_row("", steps_text(problem.scene, vary));
 }
 
 } // namespace overturn

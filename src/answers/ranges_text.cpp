@@ -1,7 +1,6 @@
-#include "topple_ranges.hpp"
+#include "overturn/answers/ranges_text.hpp"
 
-#include "print.hpp"
-
+#include "overturn/answers/job_lines.hpp"
 #include "overturn/text/mapped.hpp"
 #include "overturn/text/parse_number.hpp"
 

@@ -1,5 +1,5 @@
 // Ranges and verdicts in words.
-#include "commands/report/topple_ranges.hpp"
+#include "overturn/answers/ranges_text.hpp"
 #include "support/verdict_ranges.hpp"
 
 #include <fmt/format.h>
