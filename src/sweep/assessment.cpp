@@ -25,11 +25,11 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Verdicts close to a flip need more digits. Of a block that may slip, of which there are none,
 /// only the verdict at the asked strength is confirmed.
-Numerics numerics_of_search(const Scene& scene, const Point& point)
+Numerics numerics_of_search(const Point& point)
 {
     const bool may_slip = std::isfinite(point.friction);
     Numerics numerics;
-    numerics.method = scene.motion_traits().method;
+    numerics.method = Method::taylor;
     numerics.resolve = !may_slip;
     numerics.tolerance = may_slip ? numerics.tolerance : tolerance_to_resolve_from;
     return numerics;
@@ -161,7 +161,7 @@ TopplingStrengths strengths_in_steps(const Scene& scene, const BoundaryLine& lin
         scan.push_back(lifting * std::pow(end / lifting, i / steps));
     }
     std::ranges::sort(scan);
-    const Numerics numerics = numerics_of_search(scene, line.point);
+    const Numerics numerics = numerics_of_search(line.point);
     const VerdictsAt verdicts_at = [&](std::span<const double> accelerations) {
         std::vector<Point> points(accelerations.size(), line.point);
         for (std::size_t i = 0; i < points.size(); ++i) {
