@@ -131,7 +131,7 @@ Assessment assessment_of(Job job, const AssessRequest& request, int threads,
     const std::vector<ObjectCase> cases = cases_of(job.problem, question);
     Assessment assessment{std::move(job), answers_of(cases), {}};
     const ObjectAnswer& worst = assessment.answers.front();
-    if (parts.empty() && worst.verdict.value_or(Verdict::safe) != Verdict::safe) {
+    if (request.widths && parts.empty() && worst.verdict.value_or(Verdict::safe) != Verdict::safe) {
         const auto its = std::ranges::equal_range(cases, worst.object, {}, &ObjectCase::object);
         assessment.widths =
             least_widths_of(assessment.job.problem, {its.begin(), its.end()}, threads);

@@ -87,9 +87,11 @@ void expect_consistent(const ToppleRequest& request)
     }
 }
 
-Job job_of(const ToppleRequest& request)
+Job job_of(const ToppleRequest& request, const std::vector<std::string>& axes = {})
 {
-    return read_job_text(job_text(request), command_line, request.overrides);
+    std::vector<std::string> overrides = request.overrides;
+    overrides.insert(overrides.end(), axes.begin(), axes.end());
+    return read_job_text(job_text(request), command_line, overrides);
 }
 
 /// A sentence on the values of the varied quantity that describe a block, if some do.
@@ -131,13 +133,13 @@ std::string possible_values(const ToppleRequest& request)
 
 } // namespace
 
-std::vector<Job> jobs_of(const ToppleRequest& given)
+std::vector<Job> jobs_of(const ToppleRequest& given, const std::vector<std::string>& axes)
 {
     expect_consistent(given);
     ToppleRequest request = given;
     const auto job = [&] {
         try {
-            return job_of(request);
+            return job_of(request, axes);
         } catch (const Error& error) {
             throw Error(error.code(),
                         error.what() + (request.vary ? possible_values(request) : ""));

@@ -264,8 +264,6 @@ VariedQuantity varied_quantity(std::vector<std::string> words)
     return {&varied, first, last};
 }
 
-constexpr double largest_pga = 1000; // steps of a search beyond it are too long, or too many
-
 void add_topple_arguments(CLI::App& command, ToppleOptions& options)
 {
     const auto number = [&](const char* name, auto& value, const char* unit, const char* text,

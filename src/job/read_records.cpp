@@ -2,6 +2,7 @@
 #include "read_steps.hpp"
 
 #include "overturn/record/read_record.hpp"
+#include "overturn/record/text_file.hpp"
 #include "overturn/text/mapped.hpp"
 #include "overturn/text/utf8.hpp"
 
@@ -415,7 +416,7 @@ std::vector<RecordedMotion> read_motions(const Entry& scene, const std::string& 
         };
         const RecordedMotion& motion =
             motions.emplace_back(read_motion(given, {choice(0), choice(1), choice(2)}, reading));
-        const std::string path = fs::weakly_canonical(reading.folder / given.file).string();
+        const std::string path = canonical_path((reading.folder / given.file).string());
         const std::string component = motion.name.substr(motion.file.size());
         if (!known.insert(path + component + ":" + motion.checksum).second) {
             refuse(given.entry,

@@ -14,7 +14,7 @@ std::optional<Columns> columns_of_format(std::string_view line)
     static const std::regex format(
         R"(\([ \t]{0,9}([0-9]{1,3}[pP],?)?([0-9]{0,3})([iIfFeEdDgG])[sSnN]?([0-9]{1,3})(?![0-9])(\.([0-9]{1,9}))?)");
     std::cmatch found;
-    if (!std::regex_search(line.begin(), line.end(), found, format)) {
+    if (!std::regex_search(line.data(), line.data() + line.size(), found, format)) {
         return std::nullopt;
     }
     const auto number = [&](std::size_t group, std::size_t otherwise) {

@@ -41,4 +41,9 @@ std::string text_of_file(const std::string& path, const TextFileKind& kind)
     return text;
 }
 
+std::string canonical_path(const std::string& path)
+{
+    return std::filesystem::weakly_canonical(path).string();
+}
+
 } // namespace overturn

@@ -14,6 +14,11 @@ int threads_of_processor()
     return int(std::max(1U, std::thread::hardware_concurrency()));
 }
 
+std::function<bool()> is_this_thread()
+{
+    return [caller = std::this_thread::get_id()] { return std::this_thread::get_id() == caller; };
+}
+
 void in_threads(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
                 const std::function<void(std::size_t done)>& progress)
 {

@@ -1,14 +1,15 @@
-// Compiled once per method and instruction set. CMake defines OVERTURN_METHOD, OVERTURN_NUMBER,
-// OVERTURN_RECORDED (whether the ground motion is a record) and OVERTURN_KERNEL, the name of the
-// only function with external linkage. Apart from it, only templates over OVERTURN_NUMBER may be
-// instantiated here: with packs, a function in double would be shared with the rest of the program,
-// whose commands must be able to refuse a processor without these instructions. The kernel `double`
-// shares functions: every command calls kernel_called() or widest_kernel() before it computes.
+// Compiled once per method and instruction set. CMake defines OVERTURN_METHOD, OVERTURN_NUMBER
+// and its header, OVERTURN_RECORDED (whether the ground motion is a record) and OVERTURN_KERNEL,
+// the name of the only function with external linkage. Apart from it, only templates over
+// OVERTURN_NUMBER may be instantiated here: with packs, a function in double would be shared with
+// the rest of the program, whose commands must be able to refuse a processor without these
+// instructions. The kernel `double` shares functions: every command calls kernel_called() or
+// widest_kernel() before it computes.
 #include "sweep_kernel.hpp"
 
 #include "overturn/integrate/forced_stage.hpp"
 #include "overturn/number/double_double.hpp"
-#include "overturn/number/pack.hpp"
+#include OVERTURN_NUMBER_HEADER
 
 #include <optional>
 

@@ -13,7 +13,6 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <thread>
 #include <tuple>
 
 namespace overturn {
@@ -117,8 +116,8 @@ std::vector<RestitutionAnswer> answers_by_restitution(const Problem& problem, co
         }
     }
     std::atomic<std::size_t> done = ratios.size() - distinct.size();
-    const auto show_progress = [&, caller = std::this_thread::get_id()] {
-        if (question.progress && std::this_thread::get_id() == caller) {
+    const auto show_progress = [&, is_caller = is_this_thread()] {
+        if (question.progress && is_caller()) {
             question.progress(done, ratios.size());
         }
         return false;

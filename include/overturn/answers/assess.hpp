@@ -26,6 +26,7 @@ struct AssessRequest {
     std::vector<std::string> overrides; ///< of keys of [scene]
     double pga_max = 5;                 ///< the largest acceleration searched, over g [1]
     bool fine = false;                  ///< whether strengths are searched as by topple
+    bool widths = true;                 ///< whether the width is searched that would save an object
 };
 
 /// The job whose blocks are the objects. If no strength is asked for, its motions are 0. Throws

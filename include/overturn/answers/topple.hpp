@@ -22,6 +22,10 @@ struct VariedQuantity {
     double last;
 };
 
+/// The largest acceleration over g that may be asked for. Steps of a search beyond it are too long,
+/// or too many.
+inline constexpr double largest_pga = 1000;
+
 /// A block, a motion, and what is asked for.
 struct ToppleRequest {
     std::map<std::string, double> block; ///< quantities of the block, by name
@@ -44,8 +48,9 @@ struct ToppleRequest {
 };
 
 /// The job of each direction that is computed, with a single point, or with values of the varied
-/// quantity. If no strength is asked for, its motion is 0. Throws Error.
-std::vector<Job> jobs_of(const ToppleRequest& request);
+/// quantity. If no strength is asked for, its motion is 0. axes: overrides that give keys of
+/// [plane] several values instead. Throws Error.
+std::vector<Job> jobs_of(const ToppleRequest& request, const std::vector<std::string>& axes = {});
 
 /// A direction that is computed, and the answer for it.
 struct DirectedAnswer {

@@ -224,7 +224,21 @@ private:
     [[gnu::always_inline]] static DoubleDouble exact_product(const D& a, const D& b)
     {
         const D product = a * b;
-        return {product, fma(a, b, -product)};
+        if constexpr (has_fused_multiply_add) {
+            return {product, fma(a, b, -product)};
+        } else { // Dekker 1971: the products of halves are exact
+            const auto [a_high, a_low] = halves_of(a);
+            const auto [b_high, b_low] = halves_of(b);
+            return {product, a_low * b_low -
+                                 (((product - a_high * b_high) - a_low * b_high) - a_high * b_low)};
+        }
+    }
+    /// The upper and the lower 26 bits (Veltkamp 1968); for |x| < 2^996.
+    static std::array<D, 2> halves_of(const D& x)
+    {
+        const D shifted = x * D(0x1p+27 + 1);
+        const D high = shifted - (shifted - x);
+        return {high, x - high};
     }
 
     /// sin x and cos x - 1 for |x| <= 0.2.

@@ -94,6 +94,18 @@ SineAndCosine<T> sine_and_cosine_of_period(const T& x)
     }
 }
 
+/// x - k pi for an integer |k| < 2^20.
+template <Number T>
+T less_multiple_of_pi(const T& x, const T& k)
+{
+    if constexpr (has_fused_multiply_add) {
+        return fma(k, T(-pi_low), fma(k, T(-pi_high), x));
+    } else {
+        constexpr double pi_highest = 0x1.921fb544p+1; // the products with the first two are exact
+        return x - k * T(pi_highest) - k * T(pi_high - pi_highest) - k * T(pi_low);
+    }
+}
+
 /// sin x and cos x for |x| < 2^20 [rad]; in the range of one period, the values of
 /// sine_and_cosine_of_period(), which is faster.
 template <Number T>
@@ -111,8 +123,7 @@ SineAndCosine<T> sine_and_cosine_of_cycles(const T& x)
         const T below = select<T>(rest < -0.5 * pi_high, 1, 0);
         const T k = guess + (above - below);
         const T odd = k - 2 * (fma(k, T(0.5), T(rounder)) - rounder); // -1, 0 or 1
-        const T reduced = fma(k, T(-pi_low), fma(k, T(-pi_high), x));
-        const auto [sine, cosine] = sine_and_cosine(reduced);
+        const auto [sine, cosine] = sine_and_cosine(less_multiple_of_pi(x, k));
         const T sign = fma(-2 * odd, odd, T(1));
         return {sign * sine, sign * cosine};
     } else {

@@ -11,11 +11,20 @@
 
 namespace overturn {
 
-/// The fused multiply-add of the physics; that of other numbers is found in their namespaces.
+/// Whether the processor has an instruction for fma. WebAssembly has none, and the function of the
+/// C library takes longer than a step.
+#ifdef __wasm__
+inline constexpr bool has_fused_multiply_add = false;
+#else
+inline constexpr bool has_fused_multiply_add = true;
+#endif
+
+/// The fused multiply-add of the physics; that of other numbers is found in their namespaces. Code
+/// that needs the exact product asks for has_fused_multiply_add.
 namespace arithmetic {
 [[gnu::always_inline]] inline double fma(double a, double b, double c)
 {
-    return std::fma(a, b, c);
+    return has_fused_multiply_add ? std::fma(a, b, c) : a * b + c;
 }
 /// Rounded twice: a fused one would take a hundred times longer.
 inline long double fma(long double a, long double b, long double c)

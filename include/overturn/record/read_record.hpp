@@ -81,7 +81,7 @@ struct RecordOptions {
 
 /// Larger records are refused.
 inline constexpr std::size_t most_samples = 10'000'000;
-inline constexpr std::size_t largest_record_file = std::size_t(1) << 30; ///< [bytes]
+inline constexpr std::uint64_t largest_record_file = std::uint64_t(1) << 30; ///< [bytes]
 
 /// Reads the text of a file; `name` replaces the path in messages. docs/records.md states how the
 /// formats are recognised. Throws Error.

@@ -27,7 +27,7 @@ struct Table {
     const TableColumn* find(std::string_view name) const;
 };
 
-inline constexpr std::size_t largest_table_file = std::size_t(1) << 32; ///< [bytes]
+inline constexpr std::uint64_t largest_table_file = std::uint64_t(1) << 32; ///< [bytes]
 
 /// Reads the text of a file, in UTF-8; `name` replaces the path in messages. The first line names
 /// the columns; what separates the first two names separates all values. Unless these are commas,
