@@ -1,0 +1,114 @@
+// The bar of strengths: where the object stands, topples, is undecided, and what was not searched.
+import {by_id, element, on_width, svg, text_of} from "overturn/elements";
+import {linear_ticks, rounded, short, significant} from "overturn/numbers";
+
+const HEIGHT = 78, TOP = 22, BAR = 30, SIDE = 14;
+
+/** The last strength of the bar [g]: shows what is near the asked one; at the end of the search, a part beyond it. */
+function last_shown(answer) {
+    const end = answer.end_of_search;
+    const main = Math.max(answer.pga, answer.lifting_pga ?? 0, answer.toppling_pga[0]?.[0] ?? 0);
+    const ends = [...answer.toppling_pga, ...answer.undecided_pga].flat().filter((each) => each && each <= 3 * main);
+    const last = 1.25 * Math.max(main, ...ends);
+    return answer.toppling_pga.length === 0 || last > 0.8 * end ? 1.08 * end : last;
+}
+
+/** "0.5135 to 1.0318 g, above 1.0818 g": rounded outwards. */
+function intervals_text(intervals, end) {
+    const texts = intervals.map(({first, last, share = 1}) => {
+        const numbers = {first: rounded(first, 4, -1), last: rounded(last ?? end, 4, 1), share: short(100 * share, 2)};
+        const key = share < 0.995 ? "share" : last === null || last >= end ? "above" : "from_to";
+        return text_of(`ranges.${key}`, numbers);
+    });
+    return texts.join(", ") || text_of("ranges.none");
+}
+
+function description_of(answer) {
+    const end = answer.end_of_search;
+    return text_of("ranges.description", {
+        topples: intervals_text(answer.toppling_intervals, end),
+        undecided: intervals_text(answer.undecided_pga.map(([first, last]) => ({first, last})), end),
+        end: short(end, 4), asked: short(answer.pga, 4),
+        lifts: answer.lifting_pga === null ? text_of("behaviour.never_lifts")
+            : text_of("behaviour.lifts_from", {pga: significant(answer.lifting_pga, 3, -1)}),
+    });
+}
+
+/** A pattern of stripes for what is not known; ids are unique in the page. */
+export function hatch(id) {
+    return svg("defs", {}, svg("pattern", {id, width: 6, height: 6, patternUnits: "userSpaceOnUse",
+        patternTransform: "rotate(45)"}, svg("rect", {width: 6, height: 6, class: "hatch_ground"}),
+        svg("rect", {width: 2, height: 6, class: "hatch_line"})));
+}
+
+/** The entries of a legend: [class of the swatch, text]. */
+export function legend(entries) {
+    return element("ul", {class: "legend"}, ...entries.map(([name, text]) =>
+        element("li", {}, element("span", {class: `swatch ${name}`}), text)));
+}
+
+function bar(answer, width) {
+    const last = last_shown(answer);
+    const x = (pga) => SIDE + (width - 2 * SIDE) * Math.min(pga, last) / last;
+    const part = (name, first, end) => svg("rect", {class: name, x: x(first), y: TOP, height: BAR,
+        width: Math.max(x(end ?? answer.end_of_search) - x(first), name === "not_searched" ? 0 : 1)});
+    const lifting = Math.min(answer.lifting_pga ?? Infinity, answer.slip?.moving_pga ?? Infinity);
+    const parts = [];
+    for (const [first, end] of answer.safe_pga) {
+        if (first < lifting) {
+            parts.push(part("rests", first, Math.min(end, lifting)));
+        }
+        if (end > lifting) {
+            parts.push(part("rocks", Math.max(first, lifting), end));
+        }
+    }
+    parts.push(...answer.toppling_pga.map(([first, end]) => part("topples", first, end)),
+               ...answer.undecided_pga.map(([first, end]) => part("undecided", first, end)));
+    if (last > answer.end_of_search) {
+        parts.push(part("not_searched", answer.end_of_search, last));
+    }
+    const ticks = linear_ticks(last, width / 70).flatMap((tick) => [
+        svg("line", {class: "tick", x1: x(tick), x2: x(tick), y1: TOP + BAR, y2: TOP + BAR + 5}),
+        svg("text", {x: x(tick), y: TOP + BAR + 18, "text-anchor": "middle"}, short(tick, 4))]);
+    const mark = (name, pga) => svg("line", {class: name, x1: x(pga), x2: x(pga), y1: TOP - 4, y2: TOP + BAR + 2});
+    const marks = [svg("path", {class: "asked", d: `M${x(answer.pga)} ${TOP} l-7 -12 h14 z`}),
+                   mark("asked_line", answer.pga)];
+    if (answer.lifting_pga !== null && answer.lifting_pga < last) {
+        marks.unshift(mark("lifting", answer.lifting_pga));
+    }
+    return svg("svg", {width, height: HEIGHT, viewBox: `0 0 ${width} ${HEIGHT}`, "aria-hidden": true}, // a text follows
+        hatch("hatch_bar"), ...parts,
+        svg("rect", {class: "frame", x: SIDE, y: TOP, width: width - 2 * SIDE, height: BAR}), ...ticks, ...marks);
+}
+
+/** Returns {show(answer of "topple" with a search), clear()}. */
+export function create_ranges() {
+    const place = by_id("bar");
+    let answer = null;
+    const draw = () => {
+        if (answer) {
+            place.querySelector("svg").replaceWith(bar(answer, place.clientWidth));
+        }
+    };
+    on_width(place, draw);
+    return {
+        show(next) {
+            answer = next;
+            const entries = [["rests", text_of("ranges.rests")], ["rocks", text_of("ranges.rocks")],
+                             ["topples", text_of("ranges.topples")]];
+            if (answer.undecided_pga.length) {
+                entries.push(["undecided", text_of("ranges.undecided")]);
+            }
+            if (last_shown(answer) > answer.end_of_search) {
+                entries.push(["not_searched", text_of("ranges.not_searched")]);
+            }
+            entries.push(["asked", text_of("ranges.asked")], ["lifting", text_of("ranges.lifts")]);
+            place.replaceChildren(bar(answer, place.clientWidth), element("p", {class: "axis"}, text_of("ranges.axis")),
+                legend(entries), element("p", {class: "numbers"}, description_of(answer)));
+        },
+        clear() {
+            answer = null;
+            place.replaceChildren();
+        },
+    };
+}

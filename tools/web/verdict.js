@@ -1,0 +1,201 @@
+// The answer in words: from the answer of "topple" to sentences that are never more certain than it is.
+import {element, text_of} from "overturn/elements";
+import {inside, rounded, short, significant, towards} from "overturn/numbers";
+
+const NEAR = 1.1; // ratio of strengths
+
+/** The verdict of an answer of "topple": "safe", "topples" or "undecided". */
+export const verdict_of = ({topples}) => (topples === null ? "undecided" : topples ? "topples" : "safe");
+
+/** The nearest strengths of ranges [first, last], one below and one above the asked one, the nearer one first. */
+function nearest(ranges, pga) {
+    const all = ranges.map(([first, last]) => ({first, last: last ?? Infinity}))
+        .filter(({first, last}) => pga < first || last < pga)
+        .map((range) => (pga < range.first ? {...range, is_above: true, value: range.first, ratio: range.first / pga}
+            : {...range, is_above: false, value: range.last, ratio: pga / range.last}))
+        .sort((a, b) => a.ratio - b.ratio);
+    return [true, false].map((is_above) => all.find((each) => each.is_above === is_above)).filter((each) => each)
+        .sort((a, b) => a.ratio - b.ratio);
+}
+
+const is_in = (ranges, pga) => ranges.some(([first, last]) => first <= pga && pga <= (last ?? Infinity));
+
+/** "2 % less", "about twice as strong": of a strength that is shown as `shown`. */
+function how_text(shown, pga) {
+    const ratio = shown / pga;
+    if (ratio < 1.5) {
+        const percent = 100 * Math.abs(ratio - 1);
+        return text_of(`verdict.percent_${ratio > 1 ? "more" : "less"}`,
+            {percent: percent < 10 ? short(percent, 2) : percent.toFixed(0)});
+    }
+    const times = Number(rounded(ratio, ratio < 10 ? 1 : 0, -1));
+    return times >= 1.9 && times <= 2.1 ? text_of("verdict.twice") : text_of("verdict.times", {times});
+}
+
+/**
+ * "at 0.88 g, 2 % less", or "at 0.88 g (2 % less) and at 0.93 g (3 % more)". Strengths are rounded towards the asked
+ * one, but if they are safe, into their range.
+ */
+function places_text(places, pga, are_safe = false) {
+    return places.map((place) => {
+        const shown = are_safe ? inside(place) : towards(place.value, pga);
+        return shown === null ? text_of(place.is_above ? "verdict.just_above" : "verdict.just_below")
+            : text_of(places.length > 1 ? "verdict.place_of_several" : "verdict.place",
+                {strength: shown, how: how_text(Number(shown), pga)});
+    }).join(text_of("verdict.between"));
+}
+
+function at_text(answer, motion) {
+    const pga = short(answer.pga, 4);
+    return motion.scale === undefined ? text_of("verdict.at", {pga})
+        : motion.scale === 1 ? text_of("verdict.as_recorded", {pga})
+            : text_of("verdict.at_scale", {pga, scale: short(motion.scale, 6)});
+}
+
+function safe_sentence(answer, at) {
+    const {pga} = answer;
+    const toppling = nearest(answer.toppling_pga, pga);
+    const ratio_of_toppling = toppling[0]?.ratio ?? Infinity;
+    const unknown = nearest(answer.undecided_pga, pga).filter(({ratio}) => ratio < ratio_of_toppling);
+    const sentences = [];
+    const is_near = toppling.some(({ratio}) => ratio < NEAR);
+    if (is_near) {
+        const places = toppling.filter(({ratio}) => ratio < NEAR);
+        sentences.push(text_of("verdict.but_would", {at, places: places_text(places, pga)}));
+    } else if (toppling.some(({is_above}) => !is_above)) {
+        sentences.push(text_of(toppling.length > 1 ? "verdict.but_weaker" : "verdict.but_weaker_only",
+            {at, places: places_text(toppling, pga)}));
+    } else {
+        sentences.push(text_of("verdict.safe", {at}));
+        const shown = toppling.length ? towards(toppling[0].value, pga) : null;
+        sentences.push(toppling.length ? text_of("verdict.would", {strength: shown, how: how_text(Number(shown), pga)})
+            : text_of("verdict.none", {end: short(answer.end_of_search, 4)}));
+    }
+    if (unknown.length) {
+        sentences.push(text_of("verdict.near_undecided", {places: places_text(unknown.slice(0, 1), pga)}));
+    }
+    if (pga >= answer.end_of_search) {
+        sentences.push(text_of("verdict.not_searched"));
+    }
+    return {sentences, is_near: is_near || unknown.some(({ratio}) => ratio < NEAR)};
+}
+
+function toppling_sentence(answer, at) {
+    const {pga} = answer;
+    const standing = nearest(answer.safe_pga, pga).filter(({ratio}) => ratio < NEAR);
+    const unknown = nearest(answer.undecided_pga, pga).filter(({ratio}) => ratio < NEAR);
+    const sentences = [standing.length ? text_of("verdict.but_stands", {at, places: places_text(standing, pga, true)})
+        : text_of("verdict.topples", {at})];
+    const [first, last] = answer.safe_pga[0] ?? [Infinity, 0];
+    if (first === 0 && last < pga && !standing.some(({value}) => value === last)) {
+        sentences.push(text_of("verdict.stands_up_to", {strength: significant(last, 2, -1)}));
+    }
+    return {sentences, is_near: standing.length + unknown.length > 0};
+}
+
+/** What other restitutions change for an object that does not topple, or null. */
+function other_restitution(answer) {
+    const {pga} = answer;
+    const others = answer.by_restitution.filter((each) => each.restitution !== answer.restitution);
+    const shares = (list) => list.map((each) => short(each.restitution_of_maximum)).join(", ");
+    for (const [list, word] of [["toppling_pga", "other_topples"], ["undecided_pga", "other_undecided"]]) {
+        const worse = others.filter((each) => is_in(each[list], pga));
+        if (worse.length) {
+            return text_of("verdict.other_restitution", {shares: shares(worse), what: text_of(`verdict.${word}`)});
+        }
+    }
+    const own = nearest(answer.toppling_pga, pga)[0]?.ratio ?? Infinity;
+    const near = others.map((each) => ({each, place: nearest(each.toppling_pga, pga)[0]}))
+        .filter(({place}) => place && place.ratio < Math.min(own, NEAR))
+        .sort((a, b) => a.place.ratio - b.place.ratio)[0];
+    return !near ? null
+        : text_of("verdict.other_near", {share: shares([near.each]), place: places_text([near.place], pga)});
+}
+
+/** R of the side plus: from the centre of mass to that corner, in metres; slides are given over it. */
+function size_of(object) {
+    return Math.hypot(object.width / 2 - (object.center_offset ?? 0), object.center_height ?? object.height / 2);
+}
+
+/** What the object does, and which friction that needs. */
+function behaviour(answer, object) {
+    const {slip} = answer;
+    const texts = [];
+    const verdict = verdict_of(answer);
+    if (verdict === "topples") {
+        texts.push(text_of("behaviour.falls"));
+    } else if (answer.peak_of_alpha > 0) {
+        texts.push(text_of(answer.peak_of_alpha < 1 ? "behaviour.rocks" : "behaviour.rocks_over",
+            {percent: rounded(100 * answer.peak_of_alpha, 0, 1)}));
+    } else if (answer.peak_of_alpha === 0) {
+        texts.push(text_of(slip?.slide_peak_over_size === 0 ? "behaviour.stays" : "behaviour.rests"));
+    }
+    if (slip && slip.slide_over_size === null) {
+        texts.push(text_of("behaviour.slide_unknown"));
+    } else if (slip && slip.slide_peak_over_size > 0) {
+        const millimetres = (over_size) => significant(1000 * size_of(object) * Math.abs(over_size), 2, 1);
+        texts.push(text_of("behaviour.slides",
+            {end: millimetres(slip.slide_over_size), most: millimetres(slip.slide_peak_over_size)}));
+        const without = slip.topples_without_slip;
+        if (without !== null && verdict !== "undecided" && without !== answer.topples) {
+            texts.push(text_of(without ? "behaviour.slip_helps" : "behaviour.slip_harms"));
+        }
+    } else if (slip && answer.peak_of_alpha !== 0) {
+        texts.push(text_of("behaviour.no_slip"));
+    }
+    if (!slip) {
+        texts.push(answer.lifts_off ? text_of("behaviour.lifts_off")
+            : answer.friction_demand === null ? text_of("behaviour.friction_unknown")
+                : text_of("behaviour.friction", {friction: rounded(answer.friction_demand, 2, 1)}));
+    }
+    const down = (pga) => ({pga: significant(pga, 3, -1)});
+    if (slip && slip.moving_pga !== null && slip.moving_pga < (answer.lifting_pga ?? Infinity)) {
+        const key = slip.stays_flat ? "behaviour.slides_from_flat" : "behaviour.slides_from";
+        texts.push(text_of(key, down(slip.moving_pga)));
+    }
+    texts.push(answer.lifting_pga === null ? text_of("behaviour.never_lifts")
+        : text_of("behaviour.lifts_from", down(answer.lifting_pga)));
+    if (answer.by_direction.length > 1) {
+        texts.push(text_of("behaviour.direction", {direction: text_of(`directions.${answer.direction}`)}));
+    }
+    texts.push(...answer.warnings.map((warning) => text_of("behaviour.warning", {warning})));
+    return texts;
+}
+
+/** What follows from the ranges; without a search, only the verdict. */
+function sentences_of(answer, motion) {
+    const verdict = verdict_of(answer);
+    const at = at_text(answer, motion);
+    if (answer.end_of_search === null) {
+        const searching = text_of(answer.slip ? "answer.searching_long" : "answer.searching");
+        return {sentences: [text_of(`verdict.${verdict}`, {at}), searching], is_near: false};
+    }
+    const {sentences, is_near} = verdict === "safe" ? safe_sentence(answer, at)
+        : verdict === "topples" ? toppling_sentence(answer, at)
+            : {sentences: [text_of("verdict.undecided", {at})], is_near: false};
+    const other = verdict === "safe" ? other_restitution(answer) : null;
+    if (other) {
+        sentences.push(other);
+    }
+    if (answer.narrower_ranges_exist) {
+        sentences.push(text_of("verdict.narrower"));
+    }
+    if (answer.coarse_search) {
+        const {first, last, step} = answer.coarse_search;
+        sentences.push(text_of("verdict.coarse",
+            {first: significant(first, 3, -1), last: significant(last, 3, 1), step: significant(100 * step, 2, 1)}));
+    }
+    return {sentences, is_near: is_near || other !== null};
+}
+
+/** The elements of an answer of "topple", with or without a search. */
+export function verdict_elements(answer, object, motion) {
+    const {sentences: [first, ...others], is_near} = sentences_of(answer, motion);
+    const verdict = verdict_of(answer);
+    return [
+        element("p", {class: `sentence ${verdict}`, "data-verdict": verdict, "data-near": is_near},
+            ...(is_near ? [element("strong", {class: "near"}, text_of("answer.near")), " "] : []),
+            element("span", {class: "verdict"}, first), ...others.map((each) => ` ${each}`)),
+        element("p", {class: "behaviour"}, behaviour(answer, object).join(" ")),
+    ];
+}
