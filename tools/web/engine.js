@@ -109,7 +109,7 @@ export async function createEngine({module, workers}) {
 export const URGENT = 10;
 
 /** One instance of the compiled program. It is unusable after an exception. */
-class Program {
+export class Program {
     static ENOSYS = 52; // errors of WASI
     static EBADF = 8;
 
