@@ -195,6 +195,7 @@ answers_for(std::vector<Job> jobs, const ToppleRequest& request, int threads,
                             .pga = request.pga,
                             .pga_max = request.pga_max,
                             .searches = !request.without_search,
+                            .other_restitutions = request.other_restitutions,
                             .threads = threads};
     if (progress) {
         question.progress = [&](std::size_t done, std::size_t restitutions) {

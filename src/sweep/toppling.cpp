@@ -106,8 +106,9 @@ std::vector<RestitutionAnswer> answers_by_restitution(const Problem& problem, co
 {
     const double requested = point.block.restitution;
     const auto r_max = r_max_of_only_block(problem);
-    const std::vector<double> ratios =
-        question.searches ? restitutions_of(requested, r_max) : std::vector{requested};
+    const std::vector<double> ratios = question.searches && question.other_restitutions
+                                           ? restitutions_of(requested, r_max)
+                                           : std::vector{requested};
     std::vector<RestitutionAnswer> answers(ratios.size());
     std::vector<std::size_t> distinct{0}; // the requested one, and those that differ from it
     for (std::size_t i = 1; i < ratios.size(); ++i) {

@@ -195,6 +195,7 @@ ToppleRequest whole_topple_request(Members& members)
     bool search = true;
     members.take("search", search);
     request.without_search = !search;
+    members.take("other_restitutions", request.other_restitutions);
     if (const Json* const vary = members.find("vary")) {
         const bool is_range = vary->is_array() && vary->size() == 3;
         const Quantity* const varied =
@@ -290,9 +291,9 @@ std::string history_answer(Members& members)
 }
 
 /// The letter of a point: not lifted and not sliding, safe, topples, or undecided.
-char letter_of(Region region, bool moves)
+char letter_of(Region region, bool is_certain, bool moves)
 {
-    return is_unsafe(region) ? 't' : !is_safe(region) ? 'u' : moves ? 's' : 'r';
+    return !is_certain || !is_decided(region) ? 'u' : is_unsafe(region) ? 't' : moves ? 's' : 'r';
 }
 
 /// The verdicts of the points of a job: one row per strength.
@@ -304,6 +305,8 @@ std::string letters_of(const Job& job, const std::string& x)
                    .count = stored_shape(problem)};
     const TileFields fields = compute_tile(problem, all, widest_kernel());
     const auto& regions = std::get<std::vector<std::uint8_t>>(fields.values[0]);
+    const auto& margins = std::get<std::vector<double>>(fields.values[1]);
+    const auto& errors = std::get<std::vector<double>>(fields.values[2]);
     const std::vector<Point> points = Coordinates(problem.scene, problem.grid).points();
     const std::size_t of_pga = *problem.grid.dimension_of("pga");
     const std::size_t of_x = *problem.grid.dimension_of(x);
@@ -313,9 +316,11 @@ std::string letters_of(const Job& job, const std::string& x)
     for (std::size_t i = 0; i < points.size(); ++i) {
         const bool moves = std::abs(points[i].amplitude) * pga_of_unit(problem.scene, points[i]) >
                            moving_pga(problem.scene, points[i]);
+        const bool is_certain =
+            problem.numerics.resolve || errors[i] < std::abs(margins[i]) || !moves;
         const std::size_t row = of_pga < of_x ? i / columns : i % rows;
         const std::size_t column = of_pga < of_x ? i % columns : i / rows;
-        letters[row * columns + column] = letter_of(Region(regions[i]), moves);
+        letters[row * columns + column] = letter_of(Region(regions[i]), is_certain, moves);
     }
     return letters;
 }
@@ -341,8 +346,10 @@ std::string spectrum_answer(Members& members)
     const std::vector<Job> jobs =
         jobs_of(request, {fmt::format("plane.pga.values=[{}]", fmt::join(strengths, ",")),
                           fmt::format("plane.{}.values=[{}]", name, fmt::join(values, ",")),
-                          "numerics.method=\"taylor\"", "numerics.resolve=true",
-                          "output.fields=[\"region\"]"});
+                          "numerics.method=\"taylor\"",
+                          // Under a record, more digits take up to a minute.
+                          fmt::format("numerics.resolve={}", request.record.empty()),
+                          "output.fields=[\"region\",\"margin\",\"error\"]"});
     // The worst verdict of all directions.
     constexpr std::string_view order = "rsut";
     std::string worst;

@@ -22,11 +22,11 @@ def launcher(ranks):
     return [mpirun, "-n", str(ranks)]
 
 
-def measured_run(overturn, side, settings, start=(), job=JOB, axes=AXES):
-    """Runs a job at side x side points with further settings; `start` is the command prefix.
+def measured_run(overturn, side, settings, start=(), job=JOB, axes=AXES, options=()):
+    """Runs a job at side x side points with further settings and options; `start` is the command prefix.
     Returns the wall time from the start of the command to its exit, and the sidecar."""
     settings = [*(f"plane.{axis}.count={side}" for axis in axes), *settings]
-    command = [*start, str(overturn), "run", str(job), "-o", "bench.h5",
+    command = [*start, str(overturn), "run", str(job), "-o", "bench.h5", *options,
                *(word for setting in settings for word in ("--set", setting))]
     with tempfile.TemporaryDirectory() as folder:
         begin = time.perf_counter()

@@ -71,7 +71,7 @@ function start(engine) {
             form.show_components(record.names_of(form.state().record));
             record.show(form.state());
         }
-        const {object, motion, errors} = question_of(form.state());
+        const {object, motion, errors} = question_of(form.state(), record.names_of(form.state().record));
         form.show_errors(errors);
         if (lacks_record(form.state())) {
             const name = form.state().record;
@@ -89,7 +89,7 @@ function start(engine) {
         clearTimeout(list_timer);
         by_id("table").classList.add("stale");
         list_timer = setTimeout(() => {
-            const {motion, errors} = question_of(form.state());
+            const {motion, errors} = question_of(form.state(), record.names_of(form.state().record));
             const is_usable = !lacks_record(form.state()) && !MOTION_KEYS.some((key) => errors[key]);
             list(is_usable ? motion : null, form.state().unit);
         }, LIST_PAUSE);
@@ -97,7 +97,8 @@ function start(engine) {
 
     /** The verdict first, then what takes longer. */
     async function answer(object, motion, signal) {
-        const question = {question: "topple", ...object, ...motion};
+        // Of an object that slides, each restitution takes seconds.
+        const question = {question: "topple", ...object, ...motion, other_restitutions: object.friction === undefined};
         const show_verdict = (topple) => by_id("verdict").replaceChildren(...verdict_elements(topple, object, motion));
         try {
             const verdict = await engine.ask({...question, search: false}, {signal, priority: () => 0});
@@ -112,7 +113,7 @@ function start(engine) {
                     ranges.show(topple);
                     [by_id("answer"), by_id("ranges")].forEach((section) => set_stale(section, false));
                 }),
-                engine.ask({...question, question: "history", direction: verdict.direction,
+                engine.ask({question: "history", ...object, ...motion, direction: verdict.direction,
                             samples: samples_of(motion)}, {signal, priority: () => 2}).then((history) => {
                     drawing.show(history, object);
                     set_stale(by_id("motion_drawing"), false);

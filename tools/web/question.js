@@ -84,10 +84,10 @@ export const has_two_sides = (state) => ["lean", "center_offset"].some((key) => 
 export const power_of = (unit) => (unit === "cm" ? -2 : 0);
 
 /**
- * Returns {object, motion, errors}: the members of the question about the object and the motion, and for keys whose
+ * components: the names of those of the record. Returns {object, motion, errors}: the members of the question about the object and the motion, and for keys whose
  * texts are not usable, the key of a message.
  */
-export function question_of(state) {
+export function question_of(state, components = []) {
     const object = {}, motion = {}, errors = {};
     for (const {key, group, kind, quantity, is_positive, is_needed} of NUMBERS) {
         if (!is_of_motion(state, key)) {
@@ -116,7 +116,7 @@ export function question_of(state) {
     } else {
         motion.record = state.record;
         if (state.component !== "") {
-            motion.component = state.component;
+            motion.component = components.indexOf(state.component) + 1; // names may be numbers
         }
         if (motion.pga !== undefined && motion.scale !== undefined) {
             errors.scale = "one_strength";

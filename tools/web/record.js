@@ -50,7 +50,7 @@ export function create_record(engine, chosen) {
         names_of: (name) => known.get(name)?.map((each) => each.name) ?? [],
         component: (name, component) => {
             const components = known.get(name);
-            return components.find((each) => each.name === component) ?? components[0];
+            return components.find((each, i) => each.name === component || i + 1 === component) ?? components[0];
         },
         is_known: (name) => known.has(name),
         /** Says which record is in use, or which one is missing. */

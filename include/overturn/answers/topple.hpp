@@ -43,6 +43,7 @@ struct ToppleRequest {
     std::vector<std::string> overrides;           ///< of keys of [scene]
     double pga_max = 5;                           ///< the largest acceleration searched, over g [1]
     bool without_search = false;                  ///< only the verdict at the asked strength
+    bool other_restitutions = true;               ///< whether ranges of others are searched, too
     bool with_history = false;                    ///< at the asked strength
     std::optional<VariedQuantity> vary;
 };

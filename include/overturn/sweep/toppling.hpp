@@ -19,10 +19,11 @@ struct RestitutionAnswer {
 
 /// What is asked of a problem with a single point.
 struct ToppleQuestion {
-    bool has_strength;         ///< whether the strength of the point is asked for
-    std::optional<double> pga; ///< its peak acceleration over g, if that is given [1]
-    double pga_max;            ///< the end of the search, unless the strength is larger [1]
-    bool searches = true;      ///< for ranges; otherwise only the verdict at the strength
+    bool has_strength;              ///< whether the strength of the point is asked for
+    std::optional<double> pga;      ///< its peak acceleration over g, if that is given [1]
+    double pga_max;                 ///< the end of the search, unless the strength is larger [1]
+    bool searches = true;           ///< for ranges; otherwise only the verdict at the strength
+    bool other_restitutions = true; ///< for ranges of others than the requested one as well
     int threads = 1;
     /// Called again and again in the thread of the caller, with the numbers of restitutions that
     /// are computed, and of all.
