@@ -1,11 +1,13 @@
 // native_answers [FILE...] < QUESTIONS: reads the files, then a question of the page per line, and
 // prints the answer, or {"refused": message, "code": code}, per line. An answer to topple with a
-// strength has `margin`, `error` and `peak` of each direction too, by direction.
+// strength has `numbers` too: for each direction the margin, the bound of its error, and by how
+// much the peak differs at a hundred times the tolerance.
 #include "web/files_in_memory.hpp"
 #include "web/questions.hpp"
 
 #include "overturn/answers/json.hpp"
-#include "overturn/record/text_file.hpp"
+#include "overturn/sweep/compute_tile.hpp"
+#include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
 
 #include <filesystem>
@@ -15,6 +17,14 @@
 
 namespace overturn {
 namespace {
+
+double peak_at(Problem problem, double tolerance)
+{
+    problem.numerics = {.method = Method::taylor, .tolerance = tolerance, .resolve = false};
+    problem.fields = {Field::peak};
+    const TileFields fields = compute_tile(problem, tiling_of(problem)[0], widest_kernel());
+    return std::get<std::vector<double>>(fields.values[0]).front();
+}
 
 Json numbers_of(const std::string& question)
 {
@@ -28,7 +38,9 @@ Json numbers_of(const std::string& question)
         of_direction["direction"] = directions_of(job.problem).front();
         of_direction["margin"] = value(Field::margin);
         of_direction["error"] = value(Field::error);
-        of_direction["peak"] = value(Field::peak);
+        of_direction["peak_change"] =
+            if_finite(peak_at(job.problem, most_accurate.tolerance) -
+                      peak_at(job.problem, 100 * most_accurate.tolerance));
     }
     return numbers;
 }
