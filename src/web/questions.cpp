@@ -305,8 +305,12 @@ std::string letters_of(const Job& job, const std::string& x)
                    .count = stored_shape(problem)};
     const TileFields fields = compute_tile(problem, all, widest_kernel());
     const auto& regions = std::get<std::vector<std::uint8_t>>(fields.values[0]);
-    const auto& margins = std::get<std::vector<double>>(fields.values[1]);
-    const auto& errors = std::get<std::vector<double>>(fields.values[2]);
+    const auto is_certain = [&](std::size_t point) {
+        const auto value = [&](std::size_t field) {
+            return std::get<std::vector<double>>(fields.values[field])[point];
+        };
+        return problem.numerics.resolve || value(2) < std::abs(value(1));
+    };
     const std::vector<Point> points = Coordinates(problem.scene, problem.grid).points();
     const std::size_t of_pga = *problem.grid.dimension_of("pga");
     const std::size_t of_x = *problem.grid.dimension_of(x);
@@ -316,11 +320,10 @@ std::string letters_of(const Job& job, const std::string& x)
     for (std::size_t i = 0; i < points.size(); ++i) {
         const bool moves = std::abs(points[i].amplitude) * pga_of_unit(problem.scene, points[i]) >
                            moving_pga(problem.scene, points[i]);
-        const bool is_certain =
-            problem.numerics.resolve || errors[i] < std::abs(margins[i]) || !moves;
         const std::size_t row = of_pga < of_x ? i / columns : i % rows;
         const std::size_t column = of_pga < of_x ? i % columns : i / rows;
-        letters[row * columns + column] = letter_of(Region(regions[i]), is_certain, moves);
+        letters[row * columns + column] =
+            letter_of(Region(regions[i]), !moves || is_certain(i), moves);
     }
     return letters;
 }
@@ -343,13 +346,13 @@ std::string spectrum_answer(Members& members)
     if (name == "pulse_period") {
         request.period = values.front();
     }
-    const std::vector<Job> jobs =
-        jobs_of(request, {fmt::format("plane.pga.values=[{}]", fmt::join(strengths, ",")),
-                          fmt::format("plane.{}.values=[{}]", name, fmt::join(values, ",")),
-                          "numerics.method=\"taylor\"",
-                          // Under a record, more digits take up to a minute.
-                          fmt::format("numerics.resolve={}", request.record.empty()),
-                          "output.fields=[\"region\",\"margin\",\"error\"]"});
+    const bool is_resolved = request.record.empty(); // more digits take up to a minute under one
+    const std::vector<Job> jobs = jobs_of(
+        request, {fmt::format("plane.pga.values=[{}]", fmt::join(strengths, ",")),
+                  fmt::format("plane.{}.values=[{}]", name, fmt::join(values, ",")),
+                  "numerics.method=\"taylor\"", fmt::format("numerics.resolve={}", is_resolved),
+                  is_resolved ? "output.fields=[\"region\"]"
+                              : "output.fields=[\"region\",\"margin\",\"error\"]"});
     // The worst verdict of all directions.
     constexpr std::string_view order = "rsut";
     std::string worst;
