@@ -57,6 +57,8 @@ function prepared(history, object) {
     const factor = Math.min(1, object.height / reach_of(ground));
     const slide = history.slide ?? history.time.map(() => 0);
     const first = history.time.findIndex((_, i) => history.angle[i] !== 0 || slide[i] !== 0);
+    const largest = history.angle.reduce((most, each, i) =>
+        (Math.abs(each) > Math.abs(history.angle[most]) ? i : most), 0);
     const box = {left: Infinity, right: -Infinity, top: 0};
     for (let i = 0; i < history.time.length; ++i) {
         for (const [x, y] of corners_at(object, history.angle[i], slide[i])) {
@@ -68,6 +70,7 @@ function prepared(history, object) {
     const at = (list, [i, share]) => list[i] + share * ((list[i + 1] ?? list[i]) - list[i]);
     return {
         box, factor, is_exact, begin: Math.max(0, (history.time[first] ?? 0) - LEAD),
+        largest: history.time[largest],
         at(time) {
             const place = place_in(history.time, time);
             return {angle: at(history.angle, place), slide: at(slide, place), ground: factor * at(ground, place)};
@@ -78,7 +81,6 @@ function prepared(history, object) {
 /** Returns {show(history, object), clear()}. */
 export function create_drawing() {
     const place = by_id("drawing");
-    const prefers_rest = matchMedia("(prefers-reduced-motion: reduce)");
     let stop = () => {};
 
     function show(history, object) {
@@ -165,10 +167,8 @@ export function create_drawing() {
         place.replaceChildren(picture, element("div", {class: "player"}, button, slider,
             element("label", {}, slow, " ", text_of("drawing.slow")), label),
             element("p", {class: "hint"}, notes.join(" ")));
-        draw(motion.begin);
-        if (!prefers_rest.matches) {
-            play();
-        }
+        draw(motion.largest); // what matters is seen without playing
+        now = motion.begin;
     }
 
     return {

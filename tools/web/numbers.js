@@ -16,39 +16,27 @@ export function shifted(text, power) {
 const ROUND_OFF = 1e-12; // of the program, relative: 0.39999999999999997 rounded down is 0.4
 
 /** Rounded down (way < 0), up (way > 0) or to the nearest (0), as a text. */
-export function rounded(value, decimals, way = 0) {
+export function rounded(value, decimals, way = 0, round_off = ROUND_OFF) {
     const nearest = Number(value.toFixed(decimals));
-    const is_beyond = way * (value - nearest) > ROUND_OFF * Math.abs(value);
+    const is_beyond = way * (value - nearest) > round_off * Math.abs(value);
     return (is_beyond ? nearest + way * 10 ** -decimals : nearest).toFixed(decimals);
 }
 
 /** With at most so many digits, and without zeros at the end of the decimals. */
-export function significant(value, digits, way = 0) {
+export function significant(value, digits, way = 0, round_off = ROUND_OFF) {
     const decimals = value === 0 ? 0 : digits - 1 - Math.floor(Math.log10(Math.abs(value)));
-    return String(Number(rounded(value, Math.min(Math.max(decimals, 0), 15), way)));
+    return String(Number(rounded(value, Math.min(Math.max(decimals, 0), 15), way, round_off)));
 }
 
-/** Rounded towards `asked`, with enough digits to tell it from that; null if no digits are. */
-export function towards(value, asked) {
-    const is_above = value > asked;
-    for (let digits = 2; digits <= 15; ++digits) {
-        const shown = significant(value, digits, is_above ? -1 : 1);
-        if (is_above ? Number(shown) > asked : Number(shown) < asked) {
-            return shown;
-        }
-    }
-    return null;
-}
-
-/** The number of a range that is next to the asked one, rounded into the range; null if no digits are enough. */
+/** The number of a range that is next to the asked one: the fewest digits, at least three, that are in the range. */
 export function inside({first, last, is_above}) {
-    for (let digits = 2; digits <= 15; ++digits) {
-        const shown = significant(is_above ? first : last, digits, is_above ? 1 : -1);
+    for (let digits = 3; digits <= 15; ++digits) {
+        const shown = significant(is_above ? first : last, digits, is_above ? 1 : -1, 0);
         if (first <= Number(shown) && Number(shown) <= last) {
             return shown;
         }
     }
-    return null;
+    return String(is_above ? first : last);
 }
 
 /** Rounded to the nearest. */

@@ -1,9 +1,11 @@
 // The page: from a change of the question to its answers.
+import {joined} from "overturn/directions";
 import {create_drawing} from "overturn/drawing";
 import {by_id, element, text_of, write_texts} from "overturn/elements";
 import {createEngine} from "overturn/engine";
 import {create_form} from "overturn/form";
 import {create_objects_table} from "overturn/objects_table";
+import {in_words} from "overturn/messages";
 import {address_of, keys_in, question_of, state_of} from "overturn/question";
 import {create_ranges} from "overturn/ranges";
 import {create_record} from "overturn/record";
@@ -99,18 +101,21 @@ function start(engine) {
     async function answer(object, motion, signal) {
         // Of an object that slides, each restitution takes seconds.
         const question = {question: "topple", ...object, ...motion, other_restitutions: object.friction === undefined};
-        const show_verdict = (topple) => by_id("verdict").replaceChildren(...verdict_elements(topple, object, motion));
+        const {unit} = form.state();
+        const topple = async (search, priority) => {
+            const both = joined(await engine.ask({...question, search}, {signal, priority: () => priority}));
+            by_id("verdict").replaceChildren(...verdict_elements(both, object, motion, unit));
+            return both;
+        };
         try {
-            const verdict = await engine.ask({...question, search: false}, {signal, priority: () => 0});
-            show_verdict(verdict);
+            const verdict = await topple(false, 0);
             by_id("answer").classList.remove("stale");
             sections.forEach((section) => (section.hidden = false));
-            spectrum.show(object, motion, form.state().unit, verdict);
+            spectrum.show(object, motion, unit, verdict);
             set_stale(by_id("other_motions"), false);
             await Promise.all([
-                engine.ask(question, {signal, priority: () => 1}).then((topple) => {
-                    show_verdict(topple);
-                    ranges.show(topple);
+                topple(true, 1).then((answer) => {
+                    ranges.show(answer);
                     [by_id("answer"), by_id("ranges")].forEach((section) => set_stale(section, false));
                 }),
                 engine.ask({question: "history", ...object, ...motion, direction: verdict.direction,
@@ -124,7 +129,8 @@ function start(engine) {
                 return;
             }
             work.abort();
-            show_no_answer(text_of(error.is_refusal ? "answer.refused" : "answer.failed", {message: error.message}));
+            show_no_answer(text_of(error.is_refusal ? "answer.refused" : "answer.failed",
+                {message: in_words(error.message, unit)}));
             form.show_errors(Object.fromEntries(keys_in(error.message, form.state()).map((key) => [key, "see_below"])));
         }
     }

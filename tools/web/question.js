@@ -84,8 +84,8 @@ export const has_two_sides = (state) => ["lean", "center_offset"].some((key) => 
 export const power_of = (unit) => (unit === "cm" ? -2 : 0);
 
 /**
- * components: the names of those of the record. Returns {object, motion, errors}: the members of the question about the object and the motion, and for keys whose
- * texts are not usable, the key of a message.
+ * components: the names of those of the record. Returns {object, motion, errors}: the members of the question about
+ * the object and the motion, and for keys whose texts are not usable, the key of a message.
  */
 export function question_of(state, components = []) {
     const object = {}, motion = {}, errors = {};

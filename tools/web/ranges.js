@@ -1,7 +1,8 @@
 // The bar of strengths: where the object stands, topples, is undecided, and what was not searched.
 import {by_id, element, on_width, svg, text_of} from "overturn/elements";
-import {linear_ticks, rounded, short, significant} from "overturn/numbers";
+import {linear_ticks, short, significant} from "overturn/numbers";
 
+const MOST_RANGES = 4; // in the text
 const HEIGHT = 78, TOP = 22, BAR = 30, SIDE = 14;
 
 /** The last strength of the bar [g]: shows what is near the asked one; at the end of the search, a part beyond it. */
@@ -13,32 +14,48 @@ function last_shown(answer) {
     return answer.toppling_pga.length === 0 || last > 0.8 * end ? 1.08 * end : last;
 }
 
-/** "0.5135 to 1.0318 g, above 1.0818 g": rounded outwards. */
-function intervals_text(intervals, end) {
-    const texts = intervals.map(({first, last, share = 1}) => {
-        const numbers = {first: rounded(first, 4, -1), last: rounded(last ?? end, 4, 1), share: short(100 * share, 2)};
-        const key = share < 0.995 ? "share" : last === null || last >= end ? "above" : "from_to";
-        return text_of(`ranges.${key}`, numbers);
-    });
+/** "0.5135 to 1.032 g, above 1.081 g": rounded outwards; those that touch when they are rounded are one. */
+export function ranges_text(ranges, end) {
+    const shown = [];
+    for (const [from, to] of ranges) {
+        const first = significant(from, 4, -1), last = significant(to ?? end, 4, 1), is_last = (to ?? end) >= end;
+        const previous = shown.at(-1);
+        if (previous && Number(first) <= Number(previous.last)) {
+            Object.assign(previous, {last, is_last});
+        } else {
+            shown.push({first, last, is_last});
+        }
+    }
+    const texts = shown.slice(0, MOST_RANGES)
+        .map((range) => text_of(range.is_last ? "ranges.above" : "ranges.from_to", range));
+    if (shown.length > MOST_RANGES) {
+        texts.push(text_of("ranges.others", shown.at(-1)));
+    }
     return texts.join(", ") || text_of("ranges.none");
+}
+
+/** Where the search was coarse. */
+function coarse_text({first, last, step}) {
+    return text_of("ranges.coarse",
+        {first: significant(first, 3, -1), last: significant(last, 3, 1), step: significant(100 * step, 2, 1)});
 }
 
 function description_of(answer) {
     const end = answer.end_of_search;
     return text_of("ranges.description", {
-        topples: intervals_text(answer.toppling_intervals, end),
-        undecided: intervals_text(answer.undecided_pga.map(([first, last]) => ({first, last})), end),
+        topples: ranges_text(answer.toppling_pga, end), undecided: ranges_text(answer.undecided_pga, end),
         end: short(end, 4), asked: short(answer.pga, 4),
+        coarse: answer.coarse_search ? coarse_text(answer.coarse_search) : text_of("ranges.fine"),
         lifts: answer.lifting_pga === null ? text_of("behaviour.never_lifts")
             : text_of("behaviour.lifts_from", {pga: significant(answer.lifting_pga, 3, -1)}),
     });
 }
 
-/** A pattern of stripes for what is not known; ids are unique in the page. */
-export function hatch(id) {
+/** A pattern of stripes, with an id that is unique in the page, for "unknown" or "gap"; size: of its unit. */
+export function hatch(id, kind, size = 1) {
     return svg("defs", {}, svg("pattern", {id, width: 6, height: 6, patternUnits: "userSpaceOnUse",
-        patternTransform: "rotate(45)"}, svg("rect", {width: 6, height: 6, class: "hatch_ground"}),
-        svg("rect", {width: 2, height: 6, class: "hatch_line"})));
+        patternTransform: `scale(${size}) rotate(45)`}, svg("rect", {width: 6, height: 6, class: `${kind}_ground`}),
+        svg("rect", {width: 2, height: 6, class: `${kind}_line`})));
 }
 
 /** The entries of a legend: [class of the swatch, text]. */
@@ -46,6 +63,9 @@ export function legend(entries) {
     return element("ul", {class: "legend"}, ...entries.map(([name, text]) =>
         element("li", {}, element("span", {class: `swatch ${name}`}), text)));
 }
+
+/** Whether a strength at which the object stands is above one that topples it. */
+const is_gap = ({toppling_pga: [lowest]}, pga) => lowest !== undefined && lowest[0] < pga;
 
 function bar(answer, width) {
     const last = last_shown(answer);
@@ -59,7 +79,7 @@ function bar(answer, width) {
             parts.push(part("rests", first, Math.min(end, lifting)));
         }
         if (end > lifting) {
-            parts.push(part("rocks", Math.max(first, lifting), end));
+            parts.push(part(is_gap(answer, first) ? "gap" : "rocks", Math.max(first, lifting), end));
         }
     }
     parts.push(...answer.toppling_pga.map(([first, end]) => part("topples", first, end)),
@@ -77,7 +97,7 @@ function bar(answer, width) {
         marks.unshift(mark("lifting", answer.lifting_pga));
     }
     return svg("svg", {width, height: HEIGHT, viewBox: `0 0 ${width} ${HEIGHT}`, "aria-hidden": true}, // a text follows
-        hatch("hatch_bar"), ...parts,
+        hatch("hatch_bar", "unknown"), hatch("gap_bar", "gap"), ...parts,
         svg("rect", {class: "frame", x: SIDE, y: TOP, width: width - 2 * SIDE, height: BAR}), ...ticks, ...marks);
 }
 
@@ -96,6 +116,9 @@ export function create_ranges() {
             answer = next;
             const entries = [["rests", text_of("ranges.rests")], ["rocks", text_of("ranges.rocks")],
                              ["topples", text_of("ranges.topples")]];
+            if (answer.safe_pga.some(([first]) => is_gap(answer, first))) {
+                entries.push(["gap", text_of("ranges.gap")]);
+            }
             if (answer.undecided_pga.length) {
                 entries.push(["undecided", text_of("ranges.undecided")]);
             }

@@ -1,12 +1,13 @@
 // The verdicts under motions near the asked one: a plane of strengths against periods, or widths under a record. It is
 // computed coarsely first, then in tiles; what is not computed yet is hatched, never drawn as safe.
 import {by_id, element, on_width, svg, text_of} from "overturn/elements";
+import {in_words} from "overturn/messages";
 import {linear_ticks, logarithmic_ticks, nice_above, short, shifted} from "overturn/numbers";
 import {power_of} from "overturn/question";
 import {hatch, legend} from "overturn/ranges";
 
 const POINTS = 128, TILE = 32, COARSE = 16; // of each axis
-const NAMES = {r: "rests", s: "rocks", t: "topples", u: "undecided"};
+const NAMES = {r: "rests", s: "rocks", g: "gap", t: "topples", u: "undecided"};
 const KEYS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 const MARGIN = {left: 52, right: 12, top: 10, bottom: 44};
 
@@ -50,6 +51,15 @@ function path_of(letters, letter, count) {
     return path;
 }
 
+/** Letters in which points that stand are "g" if a weaker motion of their column topples the object. */
+function with_gaps(letters, count) {
+    const topples = new Array(count).fill(false);
+    return Array.from(letters, (letter, i) => {
+        topples[i % count] ||= letter === "t";
+        return topples[i % count] && (letter === "r" || letter === "s") ? "g" : letter;
+    });
+}
+
 /** Returns {show, clear}. moved(values of the form) is called when the user moves the point. */
 export function create_spectrum(engine, moved) {
     const place = by_id("spectrum");
@@ -84,7 +94,8 @@ export function create_spectrum(engine, moved) {
             part.then(draw, (error) => {
                 if (error.name !== "AbortError" && mine === plane) {
                     const {is_refusal, message} = error;
-                    mine.failure = text_of(is_refusal ? "spectrum.refused" : "answer.failed", {message});
+                    mine.failure = text_of(is_refusal ? "spectrum.refused" : "answer.failed",
+                        {message: in_words(message, mine.unit)});
                     draw();
                 }
             });
@@ -97,7 +108,7 @@ export function create_spectrum(engine, moved) {
     /** The verdict at the place of the point, in words. */
     function verdict_at([value, pga]) {
         const index = (axis, at) => Math.min(Math.floor(POINTS * axis.share(at)), POINTS - 1);
-        const letter = plane.fine[index(plane.axes.y, pga) * POINTS + index(plane.axes.x, value)];
+        const letter = with_gaps(plane.fine, POINTS)[index(plane.axes.y, pga) * POINTS + index(plane.axes.x, value)];
         return text_of(`spectrum.${letter ?? "unknown"}`);
     }
 
@@ -134,7 +145,7 @@ export function create_spectrum(engine, moved) {
             svg("circle", {class: "outer", r: 9}), svg("circle", {class: "inner", r: 4}));
         const height = bottom + MARGIN.bottom;
         const picture = svg("svg", {width, height, viewBox: `0 0 ${width} ${height}`, class: "spectrum"},
-            hatch("hatch_spectrum"),
+            hatch("hatch_spectrum", "unknown"), hatch("gap_spectrum", "gap", POINTS / size.x),
             svg("rect", {class: "not_computed", x: MARGIN.left, y: MARGIN.top, width: size.x, height: size.y}), map,
             svg("rect", {class: "frame", x: MARGIN.left, y: MARGIN.top, width: size.x, height: size.y}),
             ...ticks_x.flatMap(([value, label]) => {
@@ -180,9 +191,10 @@ export function create_spectrum(engine, moved) {
         const letters = Object.entries(NAMES);
         const paths = (list, count, name) => letters.map(([letter, each]) => svg("path", {class: `${each} ${name}`,
             d: path_of(list, letter, count), transform: `scale(${POINTS / count})`}));
-        const coarse = plane.coarse && !is_complete ? [...paths(plane.coarse, COARSE, "coarse"),
+        const fine = with_gaps(plane.fine, POINTS);
+        const coarse = plane.coarse && !is_complete ? [...paths(with_gaps(plane.coarse, COARSE), COARSE, "coarse"),
             svg("rect", {class: "over_coarse", width: POINTS, height: POINTS})] : [];
-        map.replaceChildren(...coarse, ...paths(plane.fine, POINTS, "fine"));
+        map.replaceChildren(...coarse, ...paths(fine, POINTS, "fine"));
         const handle = by_id("point");
         const values = {x: x_text(point[0], plane.unit), pga: short(point[1]), verdict: verdict_at(point)};
         handle.setAttribute("aria-label", text_of("spectrum.label", values));
@@ -194,7 +206,8 @@ export function create_spectrum(engine, moved) {
         const unfinished = is_complete ? [] : [["coarse_swatch", text_of("spectrum.coarse")],
                                               ["not_computed", text_of("spectrum.not_computed")]];
         by_id("spectrum_legend").replaceChildren(
-            legend([...letters.map(([letter, name]) => [name, text_of(`spectrum.${letter}`)]), ...unfinished,
+            legend([...letters.filter(([letter]) => letter !== "g" || fine.includes("g"))
+                .map(([letter, name]) => [name, text_of(`spectrum.${letter}`)]), ...unfinished,
                     ["point", text_of("spectrum.point")]]),
             ...(plane.failure ? [element("p", {class: "error"}, plane.failure)]
                 : is_complete ? [] : [element("p", {class: "hint"},

@@ -16,14 +16,14 @@ export const texts = {
         unit: "Unit of lengths",
     },
     fields: {
-        width: {label: "Width of the base", hint: "in the direction of the shaking"},
+        width: {label: "Width of the base", hint: "of the foot on which it stands, in the direction of the shaking"},
         height: {label: "Height"},
         lean: {label: "Lean of the base", hint: "positive: the right side is lower"},
         center_height: {label: "Height of the centre of mass", hint: "empty: half the height"},
         center_offset: {label: "Offset of the centre of mass", hint: "from the middle; positive: to the right"},
         friction: {label: "Friction coefficient", hint: "empty: it does not slide"},
         restitution: {label: "Restitution, as a share of the largest",
-                      hint: "1 (or empty): it loses no more at each impact than it must; less: more"},
+                      hint: "1 (or empty): bounces as much as possible; less: loses more at each impact"},
         direction: {label: "Direction of the motion", hint: "the two sides of the object differ"},
         pga: {label: "Strength (PGA)", hint: "peak ground acceleration"},
         period: {label: "Period of the pulse"},
@@ -33,7 +33,7 @@ export const texts = {
         component: {label: "Component"},
     },
     units: {cm: "cm", m: "m", angle: "degrees", pga: "g", period: "s", record_pga: "g", scale: "times"},
-    directions: {both: "both, the worse one counts", 0: "as given (0°)", 180: "mirrored (180°)"},
+    directions: {both: "both, the worse one counts", 0: "as given (0°)", 180: "to the other side first (180°)"},
     pulses: {
         one_sine: "one sine (push and pull)", one_cosine: "one cosine", half_sine: "half a sine (push only)",
         rectangular: "rectangular", triangular: "triangular", symmetric_ricker: "Ricker wavelet, symmetric",
@@ -62,7 +62,7 @@ export const texts = {
         positive: "The number must be above 0.",
         needed: "A number above 0 is needed.",
         one_strength: "Give the PGA or the factor, not both.",
-        see_below: "The program refused this value, see the message at the answer.",
+        see_below: "There is no answer with this value, see the message at the answer.",
     },
 
     answer: {
@@ -71,7 +71,7 @@ export const texts = {
         searching: "Searching for the strengths at which this changes …",
         searching_long: "Searching for the strengths at which this changes: with friction, this can take minutes …",
         no_answer: "No answer: correct the marked fields.",
-        refused: "No answer. The program refused the question: {message}",
+        refused: "No answer. {message}",
         failed: "No answer. The program failed: {message} Please report this with the address of this page.",
         near: "close call",
         copy: "Copy a link to this question",
@@ -80,16 +80,17 @@ export const texts = {
         no_list: "A record and a list are not part of the link.",
     },
     verdict: {
-        safe: "It does not topple {at} under this motion.",
-        topples: "It topples {at} under this motion.",
-        undecided: "Undecided {at}: the computation cannot tell whether it topples under this motion. Treat it as " +
-            "an object that topples.",
+        safe: "It does not topple {at}.",
+        topples: "It topples {at}.",
+        undecided: "Undecided {at}: the computation cannot tell whether it topples. Treat it as an object that " +
+            "topples.",
+        lifts_off: "This is doubtful: it would leave the ground.",
         // after "It does not topple"
         none: "No strength up to {end} g was found to topple it.",
-        would: "It would topple at {strength} g, {how}.",
-        but_would: "It does not topple {at} under this motion, but would {places}: do not rely on this.",
-        but_weaker: "It does not topple {at} under this motion, but weaker and stronger motions topple it: {places}.",
-        but_weaker_only: "It does not topple {at} under this motion, but a weaker motion topples it: {places}.",
+        would: "It would topple {place}.",
+        but_would: "It does not topple {at}, but would {places}: do not rely on this.",
+        but_weaker: "It does not topple {at}, but weaker and stronger motions topple it: {places}.",
+        but_weaker_only: "It does not topple {at}, but a weaker motion topples it: {places}.",
         near_undecided: "Undecided {places}.",
         not_searched: "Larger accelerations are not searched.",
         other_restitution: "With another loss at impacts (restitution of {shares} of the largest), {what} at this " +
@@ -99,54 +100,68 @@ export const texts = {
         other_near: "With another loss at impacts (restitution of {share} of the largest), it would topple {place}.",
         // after "It topples"
         stands_up_to: "It stands up to {strength} g.",
-        but_stands: "It topples {at} under this motion, but not {places}: small changes decide.",
+        but_stands: "It topples {at}, but not {places}: small changes decide.",
         place: "at {strength} g, {how}",
         place_of_several: "at {strength} g ({how})",
         between: " and ",
-        just_above: "just above",
-        just_below: "just below",
-        at: "at {pga} g",
-        at_scale: "at {scale} times the record ({pga} g)",
-        as_recorded: "as recorded ({pga} g)",
+        at: "at {pga} g under {motion}",
+        pulse: "this pulse ({pulse}, {period} s)",
+        record: "this record",
+        at_scale: "under {scale} times this record ({pga} g)",
+        as_recorded: "under this record ({pga} g)",
         percent_more: "{percent} % more",
         percent_less: "{percent} % less",
         twice: "about twice as strong",
         times: "about {times} times as strong",
         narrower: "Under a record, narrower ranges than those found exist: allow a margin.",
-        coarse: "From {first} to {last} g the search had steps of up to {step} %: narrower ranges may be missed.",
+    },
+    messages: {
+        falls: "It falls by itself at this lean or offset.",
+        squat: "So squat an object is outside of this computation: as a rule, it must be less than 1.4 times as wide " +
+            "as it is high.",
+        lean: "The lean must be between -90 and 90 degrees.",
     },
     behaviour: {
         rests: "It is not lifted.",
         stays: "It is not lifted and does not slide.",
         rocks: "It rocks up to {percent} % of the angle at which it would balance on its edge.",
-        rocks_over: "It rocks up to {percent} % of the angle at which it would balance on its edge, and comes back.",
+        rocks_over: "It rocks up to {percent} % of the angle at which it would balance on its edge: it was beyond " +
+            "balance, and the moving ground caught it.",
         falls: "It falls over.",
         slides: "It slides: it ends {end} mm from where it stood, at most {most} mm on the way.",
+        slides_back: "It slides up to {most} mm and ends where it stood.",
+        slides_little: "It slides by less than 0.05 mm.",
+        edge: "The size of what it stands on is not known here: it may slide off.",
         slide_unknown: "How far it slides is unknown.",
         no_slip: "It does not slide.",
+        not_lifted_below: "Below {pga} g no horizontal motion lifts it.",
         lifts_from: "An edge lifts from {pga} g on.",
         never_lifts: "No strength lifts it.",
         slides_from: "It slides from {pga} g on.",
         slides_from_flat: "It slides from {pga} g on and does not rock.",
         slip_helps: "Sliding helps: if it could not slide, it would topple.",
         slip_harms: "Sliding harms: if it could not slide, it would not topple.",
-        friction: "This holds if the friction coefficient is at least {friction}.",
-        lifts_off: "It would leave the ground, so that this is doubtful.",
+        friction: "This holds if the friction coefficient is at least {friction}: on a more slippery base it slides, " +
+            "and may slide off.",
         friction_unknown: "Which friction coefficient this needs is unknown.",
         warning: "Check the numbers: {warning}.",
-        direction: "Of both directions of the motion, the worse one is shown: {direction}.",
+        direction: "Both directions of the motion are considered: it topples if it does so in one of them. The " +
+            "motion shown is that of the worse one, {direction}.",
     },
     ranges: {
         heading: "At which strengths",
         axis: "peak ground acceleration [g]",
         topples: "topples", rests: "at rest", rocks: "rocks or slides, does not topple", undecided: "undecided",
+        gap: "does not topple, but a weaker motion does",
         not_searched: "not searched", asked: "asked", lifts: "lifts an edge",
-        description: "Topples: {topples}. Undecided: {undecided}. Searched up to {end} g; all other strengths of " +
-            "the search are safe, but ranges narrower than its steps may be missed. Asked: {asked} g. {lifts}",
+        description: "Topples: {topples}. Undecided: {undecided}. Ends are rounded outwards. Searched up to {end} g: " +
+            "no toppling was found at other strengths of the search. {coarse} Asked: {asked} g. {lifts}",
+        fine: "Ranges narrower than its steps may be missed.",
+        coarse: "From {first} to {last} g it had steps of up to {step} %: narrower ranges may be missed.",
         none: "none",
         above: "above {first} g",
         from_to: "{first} to {last} g",
-        share: "{share} % of {first} to {last} g",
+        others: "and others up to {last} g (do not rely on the gaps between them)",
     },
     drawing: {
         heading: "How it moves",
@@ -156,7 +171,7 @@ export const texts = {
         time: "Time",
         time_value: "{time} s, tilt {angle} degrees",
         reduced: "The ground moves {factor} times as far as drawn.",
-        frame: "The ground is drawn as seen from the place where it comes to rest.",
+        frame: "The picture follows the final position of the ground.",
         slow_parts: "Of the motion of the ground, slow parts are not drawn.",
         shortened: "The motion goes on after the end of the drawing.",
         uncertain: "The motion is so sensitive that its end may differ from what is drawn; the verdict is computed " +
@@ -178,11 +193,12 @@ export const texts = {
         computing: "{percent} % computed",
         direction: "Of both directions, the worse verdict is shown.",
         refused: "Not everything is computed: {message}",
-        r: "at rest", s: "rocks or slides, does not topple", t: "topples", u: "undecided", unknown: "not computed yet",
+        r: "at rest", s: "rocks or slides, does not topple", g: "does not topple, but a weaker motion does",
+        t: "topples", u: "undecided", unknown: "not computed yet",
     },
     list: {
         heading: "A list of objects",
-        help: "Paste cells from a spreadsheet, with a header: name, width, height, and if needed incline " +
+        help: "Paste cells from a spreadsheet, with a header: name, width, height, and if needed lean " +
             "(degrees), friction, center_height, center_offset. Lengths are in the unit chosen above, unless the " +
             "header names another one, such as width_cm. The motion is the one above.",
         label: "Cells of the spreadsheet",
@@ -199,7 +215,9 @@ export const texts = {
         steps: "Strengths are searched in steps of at most {step} %: ranges that topple an object but are narrower " +
             "than the steps may be missed. The tilt is the largest, over the angle at which the object would " +
             "balance.",
-        refused: "No table. The program refused the list: {message}",
+        refused: "No table. {message}",
+        left_out: "Not computed:",
+        row: "line {line} ({title}): {message}",
         motion_first: "No table: correct the motion above first.",
         numbered: "object {number}",
     },
@@ -209,10 +227,12 @@ export const texts = {
             "The object is rigid and does not break.",
             "It stands free on a rigid, level base, unless a lean is given, and is at rest before.",
             "It does not slide, unless a friction coefficient is given.",
-            "It rocks in one vertical plane: it does not turn about the vertical axis or roll over a corner.",
-            "The ground moves exactly as this pulse or this record, horizontally. Real earthquakes differ: compute " +
-                "several, and allow a margin.",
+            "It rocks in one vertical plane: it does not turn about the vertical axis or roll over a corner. The " +
+                "width of a round foot is its diameter, in every direction.",
+            "What it stands on moves exactly as this pulse or this record. An upper floor or a shelf shakes more " +
+                "than the ground.",
+            "The motion is horizontal: vertical shaking is left out.",
+            "One earthquake is not the next one: compute several, and allow a margin.",
         ],
-        more: "The documentation, docs/assumptions.md, says what happens where these do not hold.",
     },
 };

@@ -1,8 +1,10 @@
 // The answer in words: from the answer of "topple" to sentences that are never more certain than it is.
 import {element, text_of} from "overturn/elements";
-import {inside, rounded, short, significant, towards} from "overturn/numbers";
+import {in_words} from "overturn/messages";
+import {inside, rounded, short, significant} from "overturn/numbers";
 
 const NEAR = 1.1; // ratio of strengths
+const NO_SLIDE = 0.05; // mm
 
 /** The verdict of an answer of "topple": "safe", "topples" or "undecided". */
 export const verdict_of = ({topples}) => (topples === null ? "undecided" : topples ? "topples" : "safe");
@@ -32,24 +34,25 @@ function how_text(shown, pga) {
     return times >= 1.9 && times <= 2.1 ? text_of("verdict.twice") : text_of("verdict.times", {times});
 }
 
-/**
- * "at 0.88 g, 2 % less", or "at 0.88 g (2 % less) and at 0.93 g (3 % more)". Strengths are rounded towards the asked
- * one, but if they are safe, into their range.
- */
-function places_text(places, pga, are_safe = false) {
+/** "at 0.881 g, 2.1 % less", or "at 0.881 g (2.1 % less) and at 0.93 g (3.3 % more)": strengths in those ranges. */
+function places_text(places, pga) {
     return places.map((place) => {
-        const shown = are_safe ? inside(place) : towards(place.value, pga);
-        return shown === null ? text_of(place.is_above ? "verdict.just_above" : "verdict.just_below")
-            : text_of(places.length > 1 ? "verdict.place_of_several" : "verdict.place",
-                {strength: shown, how: how_text(Number(shown), pga)});
+        const shown = inside(place);
+        return text_of(places.length > 1 ? "verdict.place_of_several" : "verdict.place",
+            {strength: shown, how: how_text(Number(shown), pga)});
     }).join(text_of("verdict.between"));
 }
 
+/** "at 0.25 g under this pulse (one sine, 0.5 s)": the strength as it was typed. */
 function at_text(answer, motion) {
-    const pga = short(answer.pga, 4);
-    return motion.scale === undefined ? text_of("verdict.at", {pga})
-        : motion.scale === 1 ? text_of("verdict.as_recorded", {pga})
-            : text_of("verdict.at_scale", {pga, scale: short(motion.scale, 6)});
+    const {pulse, period, scale} = motion;
+    if (scale !== undefined) {
+        return text_of(scale === 1 ? "verdict.as_recorded" : "verdict.at_scale",
+            {pga: short(answer.pga, 4), scale: short(scale, 12)});
+    }
+    const name = pulse && text_of(`pulses.${pulse}`).replace(/ \(.*/, "");
+    return text_of("verdict.at", {pga: short(motion.pga, 12), motion: pulse
+        ? text_of("verdict.pulse", {pulse: name, period: short(period, 12)}) : text_of("verdict.record")});
 }
 
 function safe_sentence(answer, at) {
@@ -67,8 +70,7 @@ function safe_sentence(answer, at) {
             {at, places: places_text(toppling, pga)}));
     } else {
         sentences.push(text_of("verdict.safe", {at}));
-        const shown = toppling.length ? towards(toppling[0].value, pga) : null;
-        sentences.push(toppling.length ? text_of("verdict.would", {strength: shown, how: how_text(Number(shown), pga)})
+        sentences.push(toppling.length ? text_of("verdict.would", {place: places_text(toppling, pga)})
             : text_of("verdict.none", {end: short(answer.end_of_search, 4)}));
     }
     if (unknown.length) {
@@ -84,11 +86,11 @@ function toppling_sentence(answer, at) {
     const {pga} = answer;
     const standing = nearest(answer.safe_pga, pga).filter(({ratio}) => ratio < NEAR);
     const unknown = nearest(answer.undecided_pga, pga).filter(({ratio}) => ratio < NEAR);
-    const sentences = [standing.length ? text_of("verdict.but_stands", {at, places: places_text(standing, pga, true)})
+    const sentences = [standing.length ? text_of("verdict.but_stands", {at, places: places_text(standing, pga)})
         : text_of("verdict.topples", {at})];
     const [first, last] = answer.safe_pga[0] ?? [Infinity, 0];
     if (first === 0 && last < pga && !standing.some(({value}) => value === last)) {
-        sentences.push(text_of("verdict.stands_up_to", {strength: significant(last, 2, -1)}));
+        sentences.push(text_of("verdict.stands_up_to", {strength: inside({first, last})}));
     }
     return {sentences, is_near: standing.length + unknown.length > 0};
 }
@@ -118,7 +120,7 @@ function size_of(object) {
 }
 
 /** What the object does, and which friction that needs. */
-function behaviour(answer, object) {
+function behaviour(answer, object, {direction}) {
     const {slip} = answer;
     const texts = [];
     const verdict = verdict_of(answer);
@@ -134,8 +136,10 @@ function behaviour(answer, object) {
         texts.push(text_of("behaviour.slide_unknown"));
     } else if (slip && slip.slide_peak_over_size > 0) {
         const millimetres = (over_size) => significant(1000 * size_of(object) * Math.abs(over_size), 2, 1);
-        texts.push(text_of("behaviour.slides",
-            {end: millimetres(slip.slide_over_size), most: millimetres(slip.slide_peak_over_size)}));
+        const most = millimetres(slip.slide_peak_over_size), end = millimetres(slip.slide_over_size);
+        texts.push(most < NO_SLIDE ? text_of("behaviour.slides_little")
+            : text_of(end < NO_SLIDE ? "behaviour.slides_back" : "behaviour.slides", {end, most}));
+        texts.push(text_of("behaviour.edge"));
         const without = slip.topples_without_slip;
         if (without !== null && verdict !== "undecided" && without !== answer.topples) {
             texts.push(text_of(without ? "behaviour.slip_helps" : "behaviour.slip_harms"));
@@ -144,21 +148,21 @@ function behaviour(answer, object) {
         texts.push(text_of("behaviour.no_slip"));
     }
     if (!slip) {
-        texts.push(answer.lifts_off ? text_of("behaviour.lifts_off")
-            : answer.friction_demand === null ? text_of("behaviour.friction_unknown")
-                : text_of("behaviour.friction", {friction: rounded(answer.friction_demand, 2, 1)}));
+        texts.push(answer.friction_demand === null ? text_of("behaviour.friction_unknown")
+            : text_of("behaviour.friction", {friction: rounded(answer.friction_demand, 2, 1)}));
     }
     const down = (pga) => ({pga: significant(pga, 3, -1)});
     if (slip && slip.moving_pga !== null && slip.moving_pga < (answer.lifting_pga ?? Infinity)) {
         const key = slip.stays_flat ? "behaviour.slides_from_flat" : "behaviour.slides_from";
         texts.push(text_of(key, down(slip.moving_pga)));
     }
+    // Of one direction of two, the other one may lift it at less.
     texts.push(answer.lifting_pga === null ? text_of("behaviour.never_lifts")
-        : text_of("behaviour.lifts_from", down(answer.lifting_pga)));
+        : text_of(slip || direction !== undefined ? "behaviour.lifts_from" : "behaviour.not_lifted_below",
+            down(answer.lifting_pga)));
     if (answer.by_direction.length > 1) {
         texts.push(text_of("behaviour.direction", {direction: text_of(`directions.${answer.direction}`)}));
     }
-    texts.push(...answer.warnings.map((warning) => text_of("behaviour.warning", {warning})));
     return texts;
 }
 
@@ -180,22 +184,22 @@ function sentences_of(answer, motion) {
     if (answer.narrower_ranges_exist) {
         sentences.push(text_of("verdict.narrower"));
     }
-    if (answer.coarse_search) {
-        const {first, last, step} = answer.coarse_search;
-        sentences.push(text_of("verdict.coarse",
-            {first: significant(first, 3, -1), last: significant(last, 3, 1), step: significant(100 * step, 2, 1)}));
-    }
     return {sentences, is_near: is_near || other !== null};
 }
 
 /** The elements of an answer of "topple", with or without a search. */
-export function verdict_elements(answer, object, motion) {
+export function verdict_elements(answer, object, motion, unit) {
     const {sentences: [first, ...others], is_near} = sentences_of(answer, motion);
     const verdict = verdict_of(answer);
+    const warnings = answer.warnings.map((each) => text_of("behaviour.warning", {warning: in_words(each, unit)}));
+    const is_doubtful = answer.lifts_off && !answer.slip;
+    if (is_doubtful) {
+        others.unshift(text_of("verdict.lifts_off"));
+    }
     return [
-        element("p", {class: `sentence ${verdict}`, "data-verdict": verdict, "data-near": is_near},
+        element("p", {class: `sentence ${verdict}`, "data-verdict": verdict, "data-near": is_near || is_doubtful},
             ...(is_near ? [element("strong", {class: "near"}, text_of("answer.near")), " "] : []),
             element("span", {class: "verdict"}, first), ...others.map((each) => ` ${each}`)),
-        element("p", {class: "behaviour"}, behaviour(answer, object).join(" ")),
+        element("p", {class: "behaviour"}, [...behaviour(answer, object, motion), ...warnings].join(" ")),
     ];
 }
