@@ -45,19 +45,20 @@ export function create_form(changed) {
     radios("motion", {pulse: texts.motion.pulse, record: texts.motion.record});
 
     const controls = [...NUMBERS.map(({key}) => key), "pulse", "direction", "component"];
-    by_id("form").addEventListener("input", ({target}) => {
-        if (target.name === "unit") {
+    const on_input = ({target}) => {
+        if (target.name === "unit" && target.value !== state.unit) {
             write(in_unit(state, target.value));
-        } else if (target.name === "motion") {
+        } else if (target.name === "motion" && target.value !== state.motion) {
             write({...state, motion: target.value});
-        } else if (controls.includes(target.id)) {
+        } else if (controls.includes(target.id) && target.value !== state[target.id]) {
             state = {...state, [target.id]: target.value};
             show_what_applies();
         } else {
             return;
         }
         changed(state);
-    });
+    };
+    ["input", "change"].forEach((event) => by_id("form").addEventListener(event, on_input)); // some send only one
     by_id("form").addEventListener("submit", (event) => event.preventDefault());
 
     function show_what_applies() {

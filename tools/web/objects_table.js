@@ -3,6 +3,7 @@ import {by_id, element, text_of} from "overturn/elements";
 import {in_words} from "overturn/messages";
 import {rounded, short, significant} from "overturn/numbers";
 import {texts} from "overturn/texts";
+import {near_ratio} from "overturn/verdict";
 
 const LENGTHS = ["width", "height", "half_width", "half_height", "center_height", "center_offset", "radius_of_gyration",
                  "size"];
@@ -81,8 +82,12 @@ function tilt_text(row) {
         : row.peak_of_alpha === null ? text_of("list.unknown") : `${significant(100 * row.peak_of_alpha, 2, 1)} %`;
 }
 
+/** Whether another verdict is within a ratio of strengths. */
+const is_near = ({factor_below: below, factor_above: above}, near) =>
+    (below !== null && below > 1 / near) || (above !== null && above < near);
+
 /** The columns of the table: heading, class, text of a row. */
-function columns_of(rows) {
+function columns_of(rows, near) {
     const titles = new Map(titles_of(rows).map((title, i) => [rows[i], title]));
     const columns = [
         ["object", "text", (row) => titles.get(row)],
@@ -91,7 +96,8 @@ function columns_of(rows) {
             text_of("list.above", {end: short(row.end_of_search, 4)}))],
         ["tilt", "number", tilt_text],
         ["lifts_from", "number", (row) => strength(row.lifts_from, text_of("list.never"))],
-        ["note", "text", (row) => row.note],
+        ["note", "text", (row) => [...(is_near(row, near) ? [text_of("answer.near")] : []), row.note]
+            .filter((each) => each).join(": ")],
     ];
     if ("slides_from" in rows[0]) {
         const text = (row) => strength(row.slides_from, text_of("list.lifts_first"));
@@ -110,8 +116,8 @@ function csv_of(rows) {
     return lines.map((line) => line.map(cell).join(",") + "\r\n").join("");
 }
 
-function elements_of({objects: rows, warnings, step_of_search}, unit) {
-    const columns = columns_of(rows);
+function elements_of({objects: rows, warnings, step_of_search}, unit, near) {
+    const columns = columns_of(rows, near);
     const download = () => {
         const address = URL.createObjectURL(new Blob([csv_of(rows)], {type: "text/csv"}));
         element("a", {href: address, download: text_of("list.file")}).click();
@@ -125,6 +131,7 @@ function elements_of({objects: rows, warnings, step_of_search}, unit) {
         element("thead", {}, element("tr", {}, ...columns.map(heading))), element("tbody", {}, ...rows.map(line)));
     return [
         element("div", {class: "wide", tabindex: 0, role: "region", "aria-label": text_of("list.caption")}, table),
+        element("p", {class: "hint scrolls"}, text_of("list.scrolls")),
         element("p", {class: "tools"}, element("button", {type: "button", click: download}, text_of("list.download"))),
         element("p", {class: "hint"}, text_of("list.steps", {step: significant(100 * step_of_search, 2, 1)})),
         ...warnings.map((warning) => element("p", {class: "hint"}, text_of("behaviour.warning",
@@ -172,7 +179,8 @@ export function create_objects_table(engine, changed) {
         const ask = (table) => engine.ask({...question, table}, {signal, priority: () => 3});
         try {
             const {answer, refused} = await answer_without_refused(parts_of(cells, unit), ask);
-            show(...(answer ? elements_of(answer, unit) : []), ...elements_of_refused(refused, unit));
+            show(...(answer ? elements_of(answer, unit, near_ratio(motion)) : []),
+                ...elements_of_refused(refused, unit));
         } catch (error) {
             if (error.name !== "AbortError") {
                 show_error(text_of(error.is_refusal ? "list.refused" : "answer.failed",

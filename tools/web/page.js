@@ -11,7 +11,7 @@ import {create_ranges} from "overturn/ranges";
 import {create_record} from "overturn/record";
 import {create_spectrum} from "overturn/spectrum";
 import {texts} from "overturn/texts";
-import {verdict_elements} from "overturn/verdict";
+import {near_ratio, verdict_elements} from "overturn/verdict";
 
 const PAUSE = 60; // ms of typing
 const LIST_PAUSE = 300;
@@ -115,7 +115,7 @@ function start(engine) {
             set_stale(by_id("other_motions"), false);
             await Promise.all([
                 topple(true, 1).then((answer) => {
-                    ranges.show(answer);
+                    ranges.show(answer, near_ratio(motion));
                     [by_id("answer"), by_id("ranges")].forEach((section) => set_stale(section, false));
                 }),
                 engine.ask({question: "history", ...object, ...motion, direction: verdict.direction,

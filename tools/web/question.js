@@ -5,7 +5,7 @@ const LENGTH = "length", ANGLE = "angle", NUMBER = "number";
 
 /**
  * The numbers of the form. quantity: the member of the question; initial: the text at the beginning; is_positive: other
- * numbers are refused; is_needed: unless the motion is the other one.
+ * numbers are refused; most: the largest one; is_needed: unless the motion is the other one.
  */
 export const NUMBERS = [
     {key: "width", group: "object", kind: LENGTH, initial: "18", is_positive: true, is_needed: true},
@@ -14,7 +14,8 @@ export const NUMBERS = [
     {key: "center_height", group: "object_more", kind: LENGTH, is_positive: true},
     {key: "center_offset", group: "object_more", kind: LENGTH},
     {key: "friction", group: "object_more", kind: NUMBER, is_positive: true},
-    {key: "restitution", group: "object_more", kind: NUMBER, quantity: "restitution_of_maximum", is_positive: true},
+    {key: "restitution", group: "object_more", kind: NUMBER, quantity: "restitution_of_maximum", is_positive: true,
+     most: 1},
     {key: "pga", group: "pulse", kind: NUMBER, initial: "0.25", is_positive: true, is_needed: true},
     {key: "period", group: "pulse", kind: NUMBER, initial: "0.5", is_positive: true, is_needed: true},
     {key: "record_pga", group: "record", kind: NUMBER, quantity: "pga", is_positive: true},
@@ -89,7 +90,7 @@ export const power_of = (unit) => (unit === "cm" ? -2 : 0);
  */
 export function question_of(state, components = []) {
     const object = {}, motion = {}, errors = {};
-    for (const {key, group, kind, quantity, is_positive, is_needed} of NUMBERS) {
+    for (const {key, group, kind, quantity, is_positive, most, is_needed} of NUMBERS) {
         if (!is_of_motion(state, key)) {
             continue;
         }
@@ -104,6 +105,8 @@ export function question_of(state, components = []) {
             errors[key] = "number";
         } else if (is_positive && value <= 0) {
             errors[key] = "positive";
+        } else if (value > most) {
+            errors[key] = "most";
         } else {
             (group.startsWith("object") ? object : motion)[quantity] = kind === ANGLE ? value * Math.PI / 180 : value;
         }

@@ -2,6 +2,7 @@
 import {by_id, element, on_width, svg, text_of} from "overturn/elements";
 import {linear_ticks, short, significant} from "overturn/numbers";
 
+const ENTRIES = ["rests", "rocks", "topples", "gap", "undecided", "not_searched", "asked", "lifting"];
 const MOST_RANGES = 4; // in the text
 const HEIGHT = 78, TOP = 22, BAR = 30, SIDE = 14;
 
@@ -40,11 +41,11 @@ function coarse_text({first, last, step}) {
         {first: significant(first, 3, -1), last: significant(last, 3, 1), step: significant(100 * step, 2, 1)});
 }
 
-function description_of(answer) {
+function description_of(answer, near) {
     const end = answer.end_of_search;
     return text_of("ranges.description", {
         topples: ranges_text(answer.toppling_pga, end), undecided: ranges_text(answer.undecided_pga, end),
-        end: short(end, 4), asked: short(answer.pga, 4),
+        end: short(end, 4), asked: short(answer.pga, 4), near: short(100 * (near - 1)),
         coarse: answer.coarse_search ? coarse_text(answer.coarse_search) : text_of("ranges.fine"),
         lifts: answer.lifting_pga === null ? text_of("behaviour.never_lifts")
             : text_of("behaviour.lifts_from", {pga: significant(answer.lifting_pga, 3, -1)}),
@@ -101,7 +102,7 @@ function bar(answer, width) {
         svg("rect", {class: "frame", x: SIDE, y: TOP, width: width - 2 * SIDE, height: BAR}), ...ticks, ...marks);
 }
 
-/** Returns {show(answer of "topple" with a search), clear()}. */
+/** Returns {show(answer of "topple" with a search, ratio of strengths that are near), clear()}. */
 export function create_ranges() {
     const place = by_id("bar");
     let answer = null;
@@ -112,22 +113,14 @@ export function create_ranges() {
     };
     on_width(place, draw);
     return {
-        show(next) {
+        show(next, near) {
             answer = next;
-            const entries = [["rests", text_of("ranges.rests")], ["rocks", text_of("ranges.rocks")],
-                             ["topples", text_of("ranges.topples")]];
-            if (answer.safe_pga.some(([first]) => is_gap(answer, first))) {
-                entries.push(["gap", text_of("ranges.gap")]);
-            }
-            if (answer.undecided_pga.length) {
-                entries.push(["undecided", text_of("ranges.undecided")]);
-            }
-            if (last_shown(answer) > answer.end_of_search) {
-                entries.push(["not_searched", text_of("ranges.not_searched")]);
-            }
-            entries.push(["asked", text_of("ranges.asked")], ["lifting", text_of("ranges.lifts")]);
-            place.replaceChildren(bar(answer, place.clientWidth), element("p", {class: "axis"}, text_of("ranges.axis")),
-                legend(entries), element("p", {class: "numbers"}, description_of(answer)));
+            const picture = bar(answer, place.clientWidth);
+            const entries = ENTRIES.filter((name) => picture.querySelector(`.${name}`)) // what is drawn
+                .map((name) => [name, text_of(`ranges.${name}`)]);
+            place.replaceChildren(picture,
+                element("p", {class: "axis"}, text_of("ranges.axis", {end: short(answer.end_of_search, 4)})),
+                legend(entries), element("p", {class: "numbers"}, description_of(answer, near)));
         },
         clear() {
             answer = null;

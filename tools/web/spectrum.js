@@ -206,7 +206,7 @@ export function create_spectrum(engine, moved) {
         const unfinished = is_complete ? [] : [["coarse_swatch", text_of("spectrum.coarse")],
                                               ["not_computed", text_of("spectrum.not_computed")]];
         by_id("spectrum_legend").replaceChildren(
-            legend([...letters.filter(([letter]) => letter !== "g" || fine.includes("g"))
+            legend([...letters.filter(([letter]) => fine.includes(letter))
                 .map(([letter, name]) => [name, text_of(`spectrum.${letter}`)]), ...unfinished,
                     ["point", text_of("spectrum.point")]]),
             ...(plane.failure ? [element("p", {class: "error"}, plane.failure)]

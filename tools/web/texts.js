@@ -25,8 +25,9 @@ export const texts = {
         restitution: {label: "Restitution, as a share of the largest",
                       hint: "1 (or empty): bounces as much as possible; less: loses more at each impact"},
         direction: {label: "Direction of the motion", hint: "the two sides of the object differ"},
-        pga: {label: "Strength (PGA)", hint: "peak ground acceleration"},
-        period: {label: "Period of the pulse"},
+        pga: {label: "Strength (PGA)", hint: "peak ground acceleration, the largest that the ground reaches; " +
+            "seismic hazard maps and building codes state it"},
+        period: {label: "Period of the pulse", hint: "earthquakes differ: try several, for example on the map below"},
         pulse: {label: "Kind of pulse"},
         record_pga: {label: "Strength (PGA)", hint: "empty: as recorded"},
         scale: {label: "Or a factor on the record"},
@@ -60,6 +61,7 @@ export const texts = {
     errors: {
         number: "This is not a number. Write it like 18 or 18,5, without separators of thousands.",
         positive: "The number must be above 0.",
+        most: "The number must be at most 1.",
         needed: "A number above 0 is needed.",
         one_strength: "Give the PGA or the factor, not both.",
         see_below: "There is no answer with this value, see the message at the answer.",
@@ -85,6 +87,9 @@ export const texts = {
         undecided: "Undecided {at}: the computation cannot tell whether it topples. Treat it as an object that " +
             "topples.",
         lifts_off: "This is doubtful: it would leave the ground.",
+        room: "It slides up to {most} mm: does it have that room?",
+        if_friction: "This holds only if the friction coefficient really is {friction}: on a rougher base it may " +
+            "topple.",
         // after "It does not topple"
         none: "No strength up to {end} g was found to topple it.",
         would: "It would topple {place}.",
@@ -99,7 +104,8 @@ export const texts = {
         other_undecided: "it is undecided",
         other_near: "With another loss at impacts (restitution of {share} of the largest), it would topple {place}.",
         // after "It topples"
-        stands_up_to: "It stands up to {strength} g.",
+        first_topples: "It first topples at {strength} g.",
+        first_undecided: "It is first undecided at {strength} g.",
         but_stands: "It topples {at}, but not {places}: small changes decide.",
         place: "at {strength} g, {how}",
         place_of_several: "at {strength} g ({how})",
@@ -131,11 +137,11 @@ export const texts = {
         slides: "It slides: it ends {end} mm from where it stood, at most {most} mm on the way.",
         slides_back: "It slides up to {most} mm and ends where it stood.",
         slides_little: "It slides by less than 0.05 mm.",
-        edge: "The size of what it stands on is not known here: it may slide off.",
+        edge: "The size of what it stands on is not known here: it may reach the edge and slide off.",
         slide_unknown: "How far it slides is unknown.",
         no_slip: "It does not slide.",
         not_lifted_below: "Below {pga} g no horizontal motion lifts it.",
-        lifts_from: "An edge lifts from {pga} g on.",
+        lifts_from: "No edge lifts below {pga} g.",
         never_lifts: "No strength lifts it.",
         slides_from: "It slides from {pga} g on.",
         slides_from_flat: "It slides from {pga} g on and does not rock.",
@@ -150,12 +156,13 @@ export const texts = {
     },
     ranges: {
         heading: "At which strengths",
-        axis: "peak ground acceleration [g]",
+        axis: "peak ground acceleration [g], searched up to {end} g",
         topples: "topples", rests: "at rest", rocks: "rocks or slides, does not topple", undecided: "undecided",
         gap: "does not topple, but a weaker motion does",
-        not_searched: "not searched", asked: "asked", lifts: "lifts an edge",
+        not_searched: "not searched", asked: "asked", lifting: "lifts an edge",
         description: "Topples: {topples}. Undecided: {undecided}. Ends are rounded outwards. Searched up to {end} g: " +
-            "no toppling was found at other strengths of the search. {coarse} Asked: {asked} g. {lifts}",
+            "no toppling was found at other strengths of the search. {coarse} Asked: {asked} g. {lifts} A close " +
+            "call is one with another verdict within {near} %.",
         fine: "Ranges narrower than its steps may be missed.",
         coarse: "From {first} to {last} g it had steps of up to {step} %: narrower ranges may be missed.",
         none: "none",
@@ -210,12 +217,13 @@ export const texts = {
         object: "object", verdict: "verdict", tilt: "tilt", note: "note",
         lifts_from: "lifts from [g]", slides_from: "slides from [g]", topples_from: "topples from [g]",
         over: "over", unknown: "unknown", never: "never", lifts_first: "lifts first", above: "above {end}",
-        verdicts: {topples: "topples", undecided: "undecided", rocks: "rocks", slides: "slides", stands: "stands",
+        verdicts: {topples: "topples", undecided: "undecided", rocks: "rocks", slides: "slides", stands: "at rest",
                    "rocks and slides": "rocks and slides"},
         steps: "Strengths are searched in steps of at most {step} %: ranges that topple an object but are narrower " +
             "than the steps may be missed. The tilt is the largest, over the angle at which the object would " +
             "balance.",
         refused: "No table. {message}",
+        scrolls: "The table scrolls sideways.",
         left_out: "Not computed:",
         row: "line {line} ({title}): {message}",
         motion_first: "No table: correct the motion above first.",

@@ -3,8 +3,11 @@ import {element, text_of} from "overturn/elements";
 import {in_words} from "overturn/messages";
 import {inside, rounded, short, significant} from "overturn/numbers";
 
-const NEAR = 1.1; // ratio of strengths
 const NO_SLIDE = 0.05; // mm
+const LONG_SLIDE = 0.1; // of the width
+
+/** The ratio of strengths up to which another verdict is near, under a motion of a question. */
+export const near_ratio = ({record}) => (record === undefined ? 1.1 : 1.2);
 
 /** The verdict of an answer of "topple": "safe", "topples" or "undecided". */
 export const verdict_of = ({topples}) => (topples === null ? "undecided" : topples ? "topples" : "safe");
@@ -22,9 +25,8 @@ function nearest(ranges, pga) {
 
 const is_in = (ranges, pga) => ranges.some(([first, last]) => first <= pga && pga <= (last ?? Infinity));
 
-/** "2 % less", "about twice as strong": of a strength that is shown as `shown`. */
-function how_text(shown, pga) {
-    const ratio = shown / pga;
+/** "2 % less", "about twice as strong": of a ratio to the asked strength. */
+function how_text(ratio) {
     if (ratio < 1.5) {
         const percent = 100 * Math.abs(ratio - 1);
         return text_of(`verdict.percent_${ratio > 1 ? "more" : "less"}`,
@@ -37,9 +39,8 @@ function how_text(shown, pga) {
 /** "at 0.881 g, 2.1 % less", or "at 0.881 g (2.1 % less) and at 0.93 g (3.3 % more)": strengths in those ranges. */
 function places_text(places, pga) {
     return places.map((place) => {
-        const shown = inside(place);
         return text_of(places.length > 1 ? "verdict.place_of_several" : "verdict.place",
-            {strength: shown, how: how_text(Number(shown), pga)});
+            {strength: inside(place), how: how_text(place.value / pga)});
     }).join(text_of("verdict.between"));
 }
 
@@ -55,15 +56,15 @@ function at_text(answer, motion) {
         ? text_of("verdict.pulse", {pulse: name, period: short(period, 12)}) : text_of("verdict.record")});
 }
 
-function safe_sentence(answer, at) {
+function safe_sentence(answer, at, near) {
     const {pga} = answer;
     const toppling = nearest(answer.toppling_pga, pga);
     const ratio_of_toppling = toppling[0]?.ratio ?? Infinity;
     const unknown = nearest(answer.undecided_pga, pga).filter(({ratio}) => ratio < ratio_of_toppling);
     const sentences = [];
-    const is_near = toppling.some(({ratio}) => ratio < NEAR);
+    const is_near = toppling.some(({ratio}) => ratio < near);
     if (is_near) {
-        const places = toppling.filter(({ratio}) => ratio < NEAR);
+        const places = toppling.filter(({ratio}) => ratio < near);
         sentences.push(text_of("verdict.but_would", {at, places: places_text(places, pga)}));
     } else if (toppling.some(({is_above}) => !is_above)) {
         sentences.push(text_of(toppling.length > 1 ? "verdict.but_weaker" : "verdict.but_weaker_only",
@@ -73,30 +74,36 @@ function safe_sentence(answer, at) {
         sentences.push(toppling.length ? text_of("verdict.would", {place: places_text(toppling, pga)})
             : text_of("verdict.none", {end: short(answer.end_of_search, 4)}));
     }
+    if (answer.slip) {
+        sentences.push(text_of("verdict.if_friction", {friction: short(answer.slip.friction, 12)}));
+    }
     if (unknown.length) {
         sentences.push(text_of("verdict.near_undecided", {places: places_text(unknown.slice(0, 1), pga)}));
     }
     if (pga >= answer.end_of_search) {
         sentences.push(text_of("verdict.not_searched"));
     }
-    return {sentences, is_near: is_near || unknown.some(({ratio}) => ratio < NEAR)};
+    return {sentences, is_near: is_near || unknown.some(({ratio}) => ratio < near)};
 }
 
-function toppling_sentence(answer, at) {
+function toppling_sentence(answer, at, near) {
     const {pga} = answer;
-    const standing = nearest(answer.safe_pga, pga).filter(({ratio}) => ratio < NEAR);
-    const unknown = nearest(answer.undecided_pga, pga).filter(({ratio}) => ratio < NEAR);
+    const standing = nearest(answer.safe_pga, pga).filter(({ratio}) => ratio < near);
+    const unknown = nearest(answer.undecided_pga, pga).filter(({ratio}) => ratio < near);
     const sentences = [standing.length ? text_of("verdict.but_stands", {at, places: places_text(standing, pga)})
         : text_of("verdict.topples", {at})];
     const [first, last] = answer.safe_pga[0] ?? [Infinity, 0];
     if (first === 0 && last < pga && !standing.some(({value}) => value === last)) {
-        sentences.push(text_of("verdict.stands_up_to", {strength: inside({first, last})}));
+        const [list, key] = (answer.undecided_pga[0]?.[0] ?? Infinity) < answer.toppling_pga[0][0]
+            ? [answer.undecided_pga, "first_undecided"] : [answer.toppling_pga, "first_topples"];
+        const lowest = {first: list[0][0], last: list[0][1] ?? Infinity, is_above: true};
+        sentences.push(text_of(`verdict.${key}`, {strength: inside(lowest)}));
     }
     return {sentences, is_near: standing.length + unknown.length > 0};
 }
 
 /** What other restitutions change for an object that does not topple, or null. */
-function other_restitution(answer) {
+function other_restitution(answer, near) {
     const {pga} = answer;
     const others = answer.by_restitution.filter((each) => each.restitution !== answer.restitution);
     const shares = (list) => list.map((each) => short(each.restitution_of_maximum)).join(", ");
@@ -107,11 +114,11 @@ function other_restitution(answer) {
         }
     }
     const own = nearest(answer.toppling_pga, pga)[0]?.ratio ?? Infinity;
-    const near = others.map((each) => ({each, place: nearest(each.toppling_pga, pga)[0]}))
-        .filter(({place}) => place && place.ratio < Math.min(own, NEAR))
+    const nearest_other = others.map((each) => ({each, place: nearest(each.toppling_pga, pga)[0]}))
+        .filter(({place}) => place && place.ratio < Math.min(own, near))
         .sort((a, b) => a.place.ratio - b.place.ratio)[0];
-    return !near ? null
-        : text_of("verdict.other_near", {share: shares([near.each]), place: places_text([near.place], pga)});
+    return !nearest_other ? null : text_of("verdict.other_near",
+        {share: shares([nearest_other.each]), place: places_text([nearest_other.place], pga)});
 }
 
 /** R of the side plus: from the centre of mass to that corner, in metres; slides are given over it. */
@@ -156,10 +163,13 @@ function behaviour(answer, object, {direction}) {
         const key = slip.stays_flat ? "behaviour.slides_from_flat" : "behaviour.slides_from";
         texts.push(text_of(key, down(slip.moving_pga)));
     }
-    // Of one direction of two, the other one may lift it at less.
-    texts.push(answer.lifting_pga === null ? text_of("behaviour.never_lifts")
-        : text_of(slip || direction !== undefined ? "behaviour.lifts_from" : "behaviour.not_lifted_below",
+    if (answer.lifting_pga !== null) {
+        // Of one direction of two, the other one may lift it at less.
+        texts.push(text_of(slip || direction !== undefined ? "behaviour.lifts_from" : "behaviour.not_lifted_below",
             down(answer.lifting_pga)));
+    } else if (!slip) {
+        texts.push(text_of("behaviour.never_lifts"));
+    }
     if (answer.by_direction.length > 1) {
         texts.push(text_of("behaviour.direction", {direction: text_of(`directions.${answer.direction}`)}));
     }
@@ -174,10 +184,11 @@ function sentences_of(answer, motion) {
         const searching = text_of(answer.slip ? "answer.searching_long" : "answer.searching");
         return {sentences: [text_of(`verdict.${verdict}`, {at}), searching], is_near: false};
     }
-    const {sentences, is_near} = verdict === "safe" ? safe_sentence(answer, at)
-        : verdict === "topples" ? toppling_sentence(answer, at)
+    const near = near_ratio(motion);
+    const {sentences, is_near} = verdict === "safe" ? safe_sentence(answer, at, near)
+        : verdict === "topples" ? toppling_sentence(answer, at, near)
             : {sentences: [text_of("verdict.undecided", {at})], is_near: false};
-    const other = verdict === "safe" ? other_restitution(answer) : null;
+    const other = verdict === "safe" ? other_restitution(answer, near) : null;
     if (other) {
         sentences.push(other);
     }
@@ -192,14 +203,17 @@ export function verdict_elements(answer, object, motion, unit) {
     const {sentences: [first, ...others], is_near} = sentences_of(answer, motion);
     const verdict = verdict_of(answer);
     const warnings = answer.warnings.map((each) => text_of("behaviour.warning", {warning: in_words(each, unit)}));
-    const is_doubtful = answer.lifts_off && !answer.slip;
-    if (is_doubtful) {
-        others.unshift(text_of("verdict.lifts_off"));
-    }
+    const slide = answer.slip?.slide_peak_over_size ?? 0; // over R
+    const doubts = [...(answer.lifts_off && !answer.slip ? [text_of("verdict.lifts_off")] : []),
+                    ...(slide * size_of(object) > LONG_SLIDE * object.width && verdict !== "topples"
+                        ? [text_of("verdict.room", {most: significant(1000 * slide * size_of(object), 2, 1)})] : [])];
+    others.unshift(...doubts);
+    const is_doubtful = doubts.length + warnings.length > 0;
     return [
+        ...(warnings.length ? [element("p", {class: "warning"}, warnings.join(" "))] : []),
         element("p", {class: `sentence ${verdict}`, "data-verdict": verdict, "data-near": is_near || is_doubtful},
             ...(is_near ? [element("strong", {class: "near"}, text_of("answer.near")), " "] : []),
             element("span", {class: "verdict"}, first), ...others.map((each) => ` ${each}`)),
-        element("p", {class: "behaviour"}, [...behaviour(answer, object, motion), ...warnings].join(" ")),
+        element("p", {class: "behaviour"}, behaviour(answer, object, motion).join(" ")),
     ];
 }
