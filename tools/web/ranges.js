@@ -47,7 +47,7 @@ function description_of(answer, near) {
         topples: ranges_text(answer.toppling_pga, end), undecided: ranges_text(answer.undecided_pga, end),
         end: short(end, 4), asked: short(answer.pga, 4), near: short(100 * (near - 1)),
         coarse: answer.coarse_search ? coarse_text(answer.coarse_search) : text_of("ranges.fine"),
-        lifts: answer.lifting_pga === null ? text_of("behaviour.never_lifts")
+        lifts: answer.lifting_pga === null ? (answer.slip ? "" : text_of("behaviour.never_lifts"))
             : text_of("behaviour.lifts_from", {pga: significant(answer.lifting_pga, 3, -1)}),
     });
 }

@@ -74,7 +74,7 @@ function safe_sentence(answer, at, near) {
         sentences.push(toppling.length ? text_of("verdict.would", {place: places_text(toppling, pga)})
             : text_of("verdict.none", {end: short(answer.end_of_search, 4)}));
     }
-    if (answer.slip) {
+    if (answer.slip && (answer.slip.slide_peak_over_size !== 0 || !toppling.length)) {
         sentences.push(text_of("verdict.if_friction", {friction: short(answer.slip.friction, 12)}));
     }
     if (unknown.length) {
@@ -144,9 +144,9 @@ function behaviour(answer, object, {direction}) {
     } else if (slip && slip.slide_peak_over_size > 0) {
         const millimetres = (over_size) => significant(1000 * size_of(object) * Math.abs(over_size), 2, 1);
         const most = millimetres(slip.slide_peak_over_size), end = millimetres(slip.slide_over_size);
-        texts.push(most < NO_SLIDE ? text_of("behaviour.slides_little")
-            : text_of(end < NO_SLIDE ? "behaviour.slides_back" : "behaviour.slides", {end, most}));
-        texts.push(text_of("behaviour.edge"));
+        texts.push(...(most < NO_SLIDE ? [text_of("behaviour.slides_little")]
+            : [text_of(end < NO_SLIDE ? "behaviour.slides_back" : "behaviour.slides", {end, most}),
+               text_of("behaviour.edge")]));
         const without = slip.topples_without_slip;
         if (without !== null && verdict !== "undecided" && without !== answer.topples) {
             texts.push(text_of(without ? "behaviour.slip_helps" : "behaviour.slip_harms"));
