@@ -157,7 +157,7 @@ class Answers(Page):
 
     def test_a_close_call_is_marked(self):
         self.open("#width=18&height=45&pga=0.5&period=0.5")
-        self.assertIn("but would at 0.514 g, 2.7 % more: do not rely on this", self.sentence())
+        self.assertIn("but would at 0.514 g, 2.8 % more: do not rely on this", self.sentence())
         self.assertEqual(self.chromium.find_element(By.CSS_SELECTOR, ".sentence").get_attribute("data-near"), "true")
 
     def test_a_strength_that_is_named_has_the_verdict_that_is_named(self):
@@ -187,6 +187,22 @@ class Answers(Page):
         self.assertRegex(self.text("verdict"), "^Check the numbers: .*center_height = 300 cm is above the top")
         self.assertEqual(self.verdict(), "safe")
         self.assertEqual(self.chromium.find_element(By.CSS_SELECTOR, ".sentence").get_attribute("data-near"), "true")
+
+    def test_more_friction_than_contacts_have_is_doubted(self):
+        self.open("#width=18&height=45&pga=1.5&period=0.5&pulse=one_cosine")
+        self.assertIn("few bases have so much friction", self.sentence())
+        self.assertEqual(self.chromium.find_element(By.CSS_SELECTOR, ".sentence").get_attribute("data-near"), "true")
+
+    def test_angles_of_messages_are_degrees(self):
+        self.open("#width=18&height=45&lean=20&pga=0.02&period=0.5")
+        self.assertIn("lean = 20 degrees is outside -10 to 10", self.text("verdict"))
+
+    def test_the_axis_of_strengths_follows_the_question(self):
+        self.open("#width=18&height=45&pga=5&period=0.5")
+        self.fill_and_wait("pga", "0.5")
+        largest = max(float(each.text) for each in self.chromium.find_elements(By.CSS_SELECTOR, "#spectrum text")
+                      if re.fullmatch(r"[0-9.]+", each.text))
+        self.assertLessEqual(largest, 3)
 
     def test_a_leaning_object_has_directions(self):
         self.open("#width=18&height=45&pga=0.5&period=0.5&lean=2")

@@ -20,5 +20,6 @@ export function in_words(message, unit) {
     const length = (_, name, value) => `${name} = ${short(Number(shifted(value, -power_of(unit))), 12)} ${unit}`;
     return REMARKS.reduce((text, each) => text.replace(each, ""), message)
         .replace(new RegExp(`\\b(${lengths}) = (-?[\\d.e+-]*\\d)(?: m\\b)?`, "g"), length)
-        .replace(/\bincline = (\S*\d)/g, (_, value) => `lean = ${short(Number(value) * 180 / Math.PI, 12)} degrees`);
+        .replace(/\bincline = (\S*\d)( degrees)?(?!\S)/g, (_, value, in_degrees) =>
+            `lean = ${in_degrees ? value : short(Number(value) * 180 / Math.PI, 12)} degrees`);
 }

@@ -7,6 +7,7 @@ import {power_of} from "overturn/question";
 import {hatch, legend} from "overturn/ranges";
 
 const POINTS = 128, TILE = 32, COARSE = 16; // of each axis
+const TOO_HIGH = 2.5; // an axis of strengths, beside that which the question would get
 const NAMES = {r: "rests", s: "rocks", g: "gap", t: "topples", u: "undecided"};
 const KEYS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 const MARGIN = {left: 52, right: 12, top: 10, bottom: 44};
@@ -234,11 +235,11 @@ export function create_spectrum(engine, moved) {
             by_id("spectrum_heading").textContent = text_of(is_record ? "spectrum.heading_record" : "spectrum.heading");
             point = [is_record ? width : period, answer.pga];
             const key = JSON.stringify(question);
-            if (plane?.key !== key || !is_inside(plane.axes, point)) {
+            const axes = axes_around(object, motion, answer.pga, answer.lifting_pga);
+            if (plane?.key !== key || !is_inside(plane.axes, point) || plane.axes.y.last > TOO_HIGH * axes.y.last) {
                 plane?.work.abort();
                 plane = {key, question, is_record, x_quantity: is_record ? "width" : "pulse_period",
-                         axes: axes_around(object, motion, answer.pga, answer.lifting_pga),
-                         work: new AbortController(), coarse: null, fine: new Array(POINTS ** 2)};
+                         axes, work: new AbortController(), coarse: null, fine: new Array(POINTS ** 2)};
                 compute();
             }
             Object.assign(plane, {unit, has_directions: answer.by_direction.length > 1});

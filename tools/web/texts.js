@@ -87,6 +87,8 @@ export const texts = {
         undecided: "Undecided {at}: the computation cannot tell whether it topples. Treat it as an object that " +
             "topples.",
         lifts_off: "This is doubtful: it would leave the ground.",
+        will_slide: "This is doubtful: it would slide, because few bases have so much friction. Give the friction " +
+            "coefficient, under more about the object.",
         room: "It slides up to {most} mm: does it have that room?",
         if_friction: "This holds only if the friction coefficient really is {friction}: on a rougher base it may " +
             "topple.",
@@ -147,8 +149,11 @@ export const texts = {
         slides_from_flat: "It slides from {pga} g on and does not rock.",
         slip_helps: "Sliding helps: if it could not slide, it would topple.",
         slip_harms: "Sliding harms: if it could not slide, it would not topple.",
-        friction: "This holds if the friction coefficient is at least {friction}: on a more slippery base it slides, " +
-            "and may slide off.",
+        friction: "At the asked strength, this holds if the friction coefficient is at least {friction}: on a more " +
+            "slippery base it slides, and may slide off.",
+        friction_to_fall: "At the asked strength, this holds if the friction coefficient is at least {friction}: on a more " +
+            "slippery base it slides before it falls, or instead.",
+        much_friction: "This would need a friction coefficient of {friction}.",
         friction_unknown: "Which friction coefficient this needs is unknown.",
         warning: "Check the numbers: {warning}.",
         direction: "Both directions of the motion are considered: it topples if it does so in one of them. The " +

@@ -5,6 +5,7 @@ import {inside, rounded, short, significant} from "overturn/numbers";
 
 const NO_SLIDE = 0.05; // mm
 const LONG_SLIDE = 0.1; // of the width
+const MUCH_FRICTION = 1; // few contacts have more
 
 /** The ratio of strengths up to which another verdict is near, under a motion of a question. */
 export const near_ratio = ({record}) => (record === undefined ? 1.1 : 1.2);
@@ -39,8 +40,9 @@ function how_text(ratio) {
 /** "at 0.881 g, 2.1 % less", or "at 0.881 g (2.1 % less) and at 0.93 g (3.3 % more)": strengths in those ranges. */
 function places_text(places, pga) {
     return places.map((place) => {
+        const strength = inside(place);
         return text_of(places.length > 1 ? "verdict.place_of_several" : "verdict.place",
-            {strength: inside(place), how: how_text(place.value / pga)});
+            {strength, how: how_text(Number(strength) / pga)});
     }).join(text_of("verdict.between"));
 }
 
@@ -139,7 +141,9 @@ function behaviour(answer, object, {direction}) {
     } else if (answer.peak_of_alpha === 0) {
         texts.push(text_of(slip?.slide_peak_over_size === 0 ? "behaviour.stays" : "behaviour.rests"));
     }
-    if (slip && slip.slide_over_size === null) {
+    if (verdict === "topples") {
+        // How far it slides while it falls says nothing of where it ends.
+    } else if (slip && slip.slide_over_size === null) {
         texts.push(text_of("behaviour.slide_unknown"));
     } else if (slip && slip.slide_peak_over_size > 0) {
         const millimetres = (over_size) => significant(1000 * size_of(object) * Math.abs(over_size), 2, 1);
@@ -156,7 +160,9 @@ function behaviour(answer, object, {direction}) {
     }
     if (!slip) {
         texts.push(answer.friction_demand === null ? text_of("behaviour.friction_unknown")
-            : text_of("behaviour.friction", {friction: rounded(answer.friction_demand, 2, 1)}));
+            : text_of(answer.friction_demand > MUCH_FRICTION ? "behaviour.much_friction"
+                : verdict === "topples" ? "behaviour.friction_to_fall" : "behaviour.friction",
+            {friction: rounded(answer.friction_demand, 2, 1)}));
     }
     const down = (pga) => ({pga: significant(pga, 3, -1)});
     if (slip && slip.moving_pga !== null && slip.moving_pga < (answer.lifting_pga ?? Infinity)) {
@@ -204,7 +210,8 @@ export function verdict_elements(answer, object, motion, unit) {
     const verdict = verdict_of(answer);
     const warnings = answer.warnings.map((each) => text_of("behaviour.warning", {warning: in_words(each, unit)}));
     const slide = answer.slip?.slide_peak_over_size ?? 0; // over R
-    const doubts = [...(answer.lifts_off && !answer.slip ? [text_of("verdict.lifts_off")] : []),
+    const doubts = [...(answer.lifts_off && !answer.slip ? [text_of("verdict.lifts_off")]
+        : !answer.slip && answer.friction_demand > MUCH_FRICTION ? [text_of("verdict.will_slide")] : []),
                     ...(slide * size_of(object) > LONG_SLIDE * object.width && verdict !== "topples"
                         ? [text_of("verdict.room", {most: significant(1000 * slide * size_of(object), 2, 1)})] : [])];
     others.unshift(...doubts);
