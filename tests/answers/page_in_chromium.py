@@ -12,15 +12,14 @@ import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
 
-from selenium import webdriver
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.print_page_options import PrintOptions
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS / "support"), str(TESTS.parent / "tools")]
+from chromium import InChromium  # noqa: E402
 from overturn import report  # noqa: E402
 
 OVERTURN = os.path.abspath(os.environ["OVERTURN"])
@@ -32,32 +31,20 @@ an object with a name that is much longer than any column of a table should be;2
 """
 
 
-class Pages(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        options = webdriver.ChromeOptions()
-        for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"):
-            options.add_argument(argument)
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-        cls.chromium = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
-        cls.addClassCleanup(cls.chromium.quit)
-        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
-
+class Pages(InChromium):
     def opened(self, table, *options):
         """Opens the page about a table; returns the answers."""
         run = subprocess.run([OVERTURN, "assess", table, "--json", *options], cwd=self.folder, check=True,
                              stdout=subprocess.PIPE, text=True)
         (self.folder / "answers.json").write_text(run.stdout)
         subprocess.run([ROOT / "tools" / "report", "answers.json"], cwd=self.folder, check=True, stdout=subprocess.PIPE)
-        self.chromium.get_log("performance")
+        self.requests()
         self.chromium.get((self.folder / "answers.html").as_uri())
         return json.loads(run.stdout)
 
     def assert_sound(self, answers):
         self.assertEqual(self.chromium.get_log("browser"), [])
-        messages = [json.loads(entry["message"])["message"] for entry in self.chromium.get_log("performance")]
-        requests = [message["params"]["request"]["url"] for message in messages
-                    if message["method"] == "Network.requestWillBeSent"]
+        requests = self.requests()
         self.assertEqual(requests, [self.chromium.current_url])
         names = [row.text.split("\n")[0] for row in self.chromium.find_elements(By.CSS_SELECTOR, "tbody td:first-child")]
         self.assertEqual(names, report.titles_of(answers["objects"]))

@@ -6,21 +6,20 @@ Files of recorded motions are taken from the folder OVERTURN_RECORDS, if it is g
 """
 
 import base64
-import json
 import os
 import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
 
-from selenium import webdriver
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.common.print_page_options import PrintOptions
 from selenium.webdriver.support.ui import WebDriverWait
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from chromium import InChromium  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = pathlib.Path(os.environ["OVERTURN_PAGE"]).resolve()
@@ -52,16 +51,10 @@ IS_ANSWERED = "return !document.querySelector('.stale, [aria-busy=true]')"
 HAS_SPECTRUM = "return document.getElementById('spectrum').dataset.computed === '100'"
 
 
-class Page(unittest.TestCase):
+class Page(InChromium):
     @classmethod
     def setUpClass(cls):
-        options = webdriver.ChromeOptions()
-        for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"):
-            options.add_argument(argument)
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-        cls.chromium = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
-        cls.addClassCleanup(cls.chromium.quit)
-        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        super().setUpClass()
         cls.record = cls.folder / "synthetic.AT2"
         subprocess.run([sys.executable, ROOT / "tools" / "synthetic_record", "--duration", "8", "-o", cls.record],
                        check=True, stdout=subprocess.PIPE)
@@ -69,16 +62,13 @@ class Page(unittest.TestCase):
     def setUp(self):
         self.chromium.get("about:blank")
         self.chromium.get_log("browser")
-        self.chromium.get_log("performance")
+        self.requests()
         self.set_width(1200)
 
     def tearDown(self):
         """No error in the console, of which refused requests are one, and no request but that of the page itself."""
         self.assertEqual(self.chromium.get_log("browser"), [])
-        messages = [json.loads(entry["message"])["message"] for entry in self.chromium.get_log("performance")]
-        requests = [message["params"]["request"]["url"] for message in messages
-                    if message["method"] == "Network.requestWillBeSent"]
-        outside = {url.partition("#")[0] for url in requests if not url.startswith(("data:", "blob:", "about:"))}
+        outside = {url.partition("#")[0] for url in self.requests() if not url.startswith(("data:", "blob:", "about:"))}
         self.assertEqual(outside, {PAGE.as_uri()})
 
     def set_width(self, width):
