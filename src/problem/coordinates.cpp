@@ -24,7 +24,7 @@ std::optional<double> r_max_of(double slenderness)
 double uplift_threshold(Theory theory, double slenderness)
 {
     return with_theory(theory, [&]<Theory known>() {
-        return Equations<known>::uplift_acceleration(BlockSide{slenderness});
+        return Equations<known>::uplift_acceleration(BlockSide<double>{slenderness});
     });
 }
 
