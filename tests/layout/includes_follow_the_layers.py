@@ -13,8 +13,7 @@ LAYER = {"number": 0, "text": 0, "mechanics": 1, "integrate": 2, "problem": 3,
          "file": 4, "farm": 4, "answers": 4, "commands": 5, "python": 5, "web": 5}
 # The modules of layer 4 that another of layer 4 may include.
 NEIGHBOURS = {"record": set(), "job": {"record"}, "answers": {"job", "record"}, "file": {"job"}, "farm": {"job"}}
-# Only these modules may include these headers. Module file opens files on a communicator. Clang 14, which compiles
-# the readers for the fuzz targets, does not compile the views of <ranges>.
+# Only these modules may include these headers. Module file opens files on a communicator.
 MODULES_OF = {"toml++/": {"job", "web"}, "hdf5": {"file"}, "H5": {"file"}, "mpi.h": {"farm", "file"},
               "CLI/": {"commands"}, "nlohmann/": {"answers", "commands"}, "ranges": {"answers", "commands"}, "xsimd/": {"number"}, "pybind11/": {"python"}}
 STREAMS = {"iostream", "fstream", "sstream", "cstdio", "chrono", "ctime"}
