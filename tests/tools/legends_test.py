@@ -4,13 +4,11 @@ Requires OVERTURN (the binary) in the environment.
 """
 
 import unittest
-from unittest import mock
 
 import numpy as np
 from plot_spectrum_test import add_field
 from recorded_spectra_test import Recorded
 from tool import JOBS  # adds the package to the path
-from overturn import output_file
 from overturn.regions import NOT_COMPUTED, REGIONS
 
 ALL = [*REGIONS, NOT_COMPUTED]
@@ -25,26 +23,18 @@ RECORD = f"""
 
 
 class TestALegend(Recorded):
-    def outside(self, *arguments, tool="plot_spectrum"):
-        """Draws a picture, which has a legend, and returns its legends and colour bars that are not within it."""
-        found = []
-
-        def examine(figure, path, **_):
-            figure.canvas.draw()
+    def assert_within(self, file, *arguments, tool="plot_spectrum"):
+        """Draws a picture, which must have a legend or a colour bar, each of them within it."""
+        def outside(figure):
+            figure.draw_without_rendering()
             legends = [*figure.legends, *filter(None, (axes.get_legend() for axes in figure.axes))]
             bars = [axes for axes in figure.axes if axes.get_label() == "<colorbar>"]
             self.assertTrue(legends + bars, arguments)
             width, height = figure.bbox.size
-            for each in legends + bars:
-                box = each.get_tightbbox()
-                if min(box.x0, box.y0, width - box.x1, height - box.y1) < 0:
-                    found.append((each, box, (width, height)))
-        with mock.patch.object(output_file, "write_picture", examine):
-            self.output_of(*arguments, "-o", "picture.png", tool=tool)
-        return found
-
-    def assert_within(self, *arguments, tool="plot_spectrum"):
-        self.assertEqual(self.outside(*arguments, tool=tool), [], arguments)
+            boxes = [each.get_tightbbox() for each in legends + bars]
+            return [(box, (width, height)) for box in boxes
+                    if min(box.x0, box.y0, width - box.x1, height - box.y1) < 0]
+        self.assertEqual(self.drawing(outside, *arguments, tool=tool, file=file)[1], [], arguments)
 
     def add_fields(self, shape):
         values = np.resize([0.5, 1.2, np.inf, 0.1], shape)

@@ -14,7 +14,7 @@ import warnings
 
 import h5py
 import numpy as np
-from tool import TOOLS, InOneFolder, run_overturn, run_tool  # first: adds the package to the path
+from tool import TOOLS, InOneFolder, run_overturn, run_tool, words_of  # first: adds the package to the path
 import overturn
 from matplotlib import pyplot
 from overturn.plot import fragility_curves
@@ -41,11 +41,8 @@ class Curve(InOneFolder):
         run_overturn(cls.folder, "run", JOB, "result.h5")
 
     def words(self, *arguments):
-        text = self.output_of(*arguments, "-o", "picture.svg")
-        picture = (self.folder / "picture.svg").read_text("utf-8")
-        texts = re.findall(r"<!-- (.*?) -->|<text[^>]*>([^<]+)", picture)  # drawn as paths, or as text
-        return text, " ".join("".join(text) for text in texts)
-
+        text, words = self.drawing(words_of, *arguments)
+        return text, " ".join(words)
 
     def unfinished(self, name):
         shutil.copy(self.folder / "result.h5", self.folder / name)

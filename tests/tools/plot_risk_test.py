@@ -45,7 +45,7 @@ class TestAPicture(Picture):
         self.assertIn("peak above 0.5 against pgv [m s-1]", text)
         self.assertIn("4 blocks together", text)
         self.assertIn("PGV [m/s]", words)
-        self.assertIn("fragility: one of the blocks has peak &gt; 0.5", words)
+        self.assertIn("fragility: one of the blocks has peak > 0.5", words)
 
     def test_of_an_unfinished_file_shows_both_bounds(self):
         shutil.copy(self.folder / "result.h5", self.folder / "part.h5")

@@ -11,7 +11,7 @@ import unittest.mock
 import h5py
 import numpy as np
 from matplotlib import colors
-from tool import JOBS, InAFolder  # first: adds the package to the path
+from tool import JOBS, InAFolder, words_of  # first: adds the package to the path
 import overturn
 from overturn.captions import panel_titles
 from overturn.choice import sheet_of
@@ -362,8 +362,8 @@ class TestSeveralSpectra(Picture):
         self.spectrum(np.zeros((2, 5, 2, 2)))
         statement = "4 of 10 spectra, in even steps; choose others with --slenderness (0 to 1) or --restitution (0 to 4)"
         with unittest.mock.patch.object(spectra, "MOST_PANELS", 4):
-            self.assertIn(statement, self.output_of("spectrum.h5", "-o", "picture.svg"))
-        words = re.findall(r"<text[^>]*>([^<]+)", (self.folder / "picture.svg").read_text("utf-8"))
+            text, words = self.drawing(words_of)
+        self.assertIn(statement, text)
         self.assertIn(statement, " ".join(words))
         self.assertEqual([word for word in words if word.startswith("α = ")], [
             f"α = {alpha} rad,  r = {share}r_max = 0.625"

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 JOBS = TOOLS.parent / "jobs"
@@ -55,6 +56,30 @@ def run_overturn(folder, command, job, name, *settings):
                    capture_output=True, timeout=PATIENCE)
 
 
+def pixels_of(figure):
+    import numpy as np
+    figure.canvas.draw()
+    return np.asarray(figure.canvas.buffer_rgba())[..., :3].astype(int)
+
+
+def words_of(figure):
+    from matplotlib.backends.backend_agg import RendererAgg
+
+    class Texts(RendererAgg):
+        """Lays out what is drawn, and keeps the texts only."""
+
+        def draw_text(self, gc, x, y, text, *font, **how):
+            found.append(text)
+
+        def draw_nothing(self, *how, **further):
+            pass
+
+        draw_path = draw_markers = draw_image = draw_path_collection = draw_quad_mesh = draw_nothing
+    found = []
+    figure.draw(Texts(*figure.bbox.size, figure.dpi))
+    return found
+
+
 class InAFolder(unittest.TestCase):
     """A separate folder for each test, in which the tools and the program run."""
 
@@ -81,15 +106,28 @@ class InAFolder(unittest.TestCase):
         self.output_of(*filter(None, [file or self.FILE]), "-o", "picture.svg", *arguments, tool=tool)
         return (self.folder / "picture.svg").read_text("utf-8")
 
-    def words(self, *arguments):
+    def drawing(self, draw, *arguments, tool=None, file=None):
+        """Returns what the tool prints, and draw(figure) in place of a file: to encode it takes as long as to draw it."""
+        made = []
+
+        def write_picture(figure, path, dpi=None):
+            figure.set_dpi(dpi or figure.dpi)
+            made.append(draw(figure))
+        with mock.patch("overturn.output_file.write_picture", write_picture):
+            text = self.output_of(*filter(None, [file or self.FILE]), "-o", "picture.png", *arguments, tool=tool)
+        return text, made[0]
+
+    def printed(self, *arguments):
+        """Returns what the tool prints of a picture."""
+        return self.drawing(lambda figure: None, *arguments)[0]
+
+    def words(self, *arguments, tool=None, file=None):
         """Returns the texts of the picture."""
-        return re.findall(r"<text[^>]*>([^<]+)", self.svg(*arguments))
+        return self.drawing(words_of, *arguments, tool=tool, file=file)[1]
 
     def picture(self, *arguments, tool=None, file=None):
         """Returns the colours of the picture, from 0 to 255."""
-        self.output_of(file or self.FILE, "-o", "picture.png", *arguments, tool=tool)
-        from matplotlib import image
-        return (255 * image.imread(self.folder / "picture.png")[..., :3]).round().astype(int)
+        return self.drawing(pixels_of, *arguments, tool=tool, file=file)[1]
 
     def refuses(self, code, sentence, *arguments, tool=None, **how):
         run = self.run_tool(*arguments, tool=tool, **how)

@@ -203,9 +203,9 @@ class TestABoundaryAlongAnotherQuantity(Sized):
         np.testing.assert_array_equal(lines.flips, flips)
         self.assertEqual(lines.scan, (0.3, 1.2))
         self.assertGreater(np.isfinite(flips).sum(), 3)
-        words = self.svg(tool="plot_boundary", file="boundary.h5")
+        words = "\n".join(["", *self.words(tool="plot_boundary", file="boundary.h5")])
         for text in ("width [m]", "pulse period [s]", "PGA = 1 g", "overturns at the first width of the job"):
-            self.assertIn(f">{text}" if text != "PGA = 1 g" else text, words)
+            self.assertIn(f"\n{text}" if text != "PGA = 1 g" else text, words)
 
     def test_is_refused_in_physical_units_if_the_size_varies(self):
         self.overturn("boundary", "spectrum.h5", *self.ALONG)
