@@ -25,6 +25,7 @@ OVERTURN = from_environment("OVERTURN")
 MPIEXEC = from_environment("MPIEXEC")
 JOBS = pathlib.Path(__file__).resolve().parents[2] / "jobs"
 TOOLS = JOBS.parent / "tools"
+sys.path.append(str(JOBS.parent / "tests" / "tools"))
 PATIENCE = 60  # [s] for one run of the program; the longest takes a few seconds
 
 ENVIRONMENT = {
@@ -135,8 +136,8 @@ class Scratch(unittest.TestCase):
 
     def tool(self, name, *arguments):
         """Runs a Python tool to its end."""
-        return subprocess.run([sys.executable, TOOLS / name, *arguments], cwd=self.folder, text=True,
-                              timeout=PATIENCE, capture_output=True)
+        from tool import run_tool
+        return run_tool(name, *arguments, cwd=self.folder)
 
     def have(self, name, compute):
         """Writes the file `name` as compute() does, which runs only for the first test of the class."""

@@ -4,7 +4,6 @@ Requires OVERTURN (the binary) in the environment. `shake_table_test.py TestTheC
 $OVERTURN_RECORDS/shake_table, in two minutes.
 """
 
-import importlib.util
 import json
 import os
 import pathlib
@@ -14,12 +13,10 @@ import unittest.mock
 
 import h5py
 import numpy as np
-from tool import TOOLS, InOneFolder  # first: adds the package to the path
+from tool import InOneFolder, module_of  # first: adds the package to the path
 import overturn
 
-spec = importlib.util.spec_from_file_location("shake_table", TOOLS / "examples/shake_table.py")
-example = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(example)
+example = module_of("examples/shake_table.py")
 
 DATA = pathlib.Path(os.environ.get("OVERTURN_RECORDS", ""), "shake_table/calibration_half.h5")
 TIME_STEP = 0.01  # [s]

@@ -2,7 +2,9 @@
 importable. Running the program requires OVERTURN (the binary) in the environment."""
 
 import contextlib
-import importlib
+import functools
+import importlib.machinery
+import importlib.util
 import io
 import os
 import pathlib
@@ -22,21 +24,34 @@ sys.path.insert(0, str(TOOLS))
 os.environ["MPLBACKEND"] = "Agg"  # as run_command() sets it
 
 
+@functools.cache
+def module_of(name):
+    """Returns the module of a tool, a path below tools/."""
+    from overturn import installation
+    if name in installation.TOOLS:
+        return importlib.import_module(f"overturn.{installation.TOOLS[name]}")
+    loader = importlib.machinery.SourceFileLoader(pathlib.Path(name).stem, str(TOOLS / name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+    loader.exec_module(module)
+    return module
+
+
 def run_tool(name, *arguments, cwd, **how):
-    """Runs a tool in this process if it is a command of the package, which saves the import of its
-    modules; otherwise, or with further options, in its own. `name` is a path below tools/."""
-    from overturn import installation, tool
-    module = installation.TOOLS.get(name)
-    if how or not module:
+    """Runs a tool in this process, which saves the import of its modules; with further options, in its own."""
+    from overturn import tool
+    if how:
         return subprocess.run([sys.executable, TOOLS / name, *arguments], text=True, cwd=cwd,
                               capture_output=True, **{"timeout": PATIENCE, **how})
-    main = importlib.import_module(f"overturn.{module}").main
     output, errors, code = io.StringIO(), io.StringIO(), 0
-    with contextlib.chdir(cwd), contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
+    with contextlib.chdir(cwd), contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors), \
+            mock.patch.object(sys, "argv", [str(TOOLS / name), *map(str, arguments)]):
         try:
-            tool.run_tool(name, lambda: main([str(word) for word in arguments]))
+            tool.run_tool(pathlib.Path(name).name, module_of(name).main)
         except SystemExit as end:
             code = end.code or 0
+            if isinstance(code, str):  # a message
+                print(code, file=errors)
+                code = 1
     return subprocess.CompletedProcess([name, *arguments], code, output.getvalue(), errors.getvalue())
 
 
