@@ -216,7 +216,7 @@ class TestAField(Field):
             peak = dataset["peak"].values[np.isin(dataset["region"].values, [0, 1, 2])]
         np.testing.assert_allclose(bars[0].get_ylim(), [peak.min(), peak.max()])
         for field in ("margin", "impacts", "angle", "velocity"):
-            overturn.plot.spectrum(self.folder / "spectrum.h5", field=field)
+            overturn.plot.spectrum(self.folder / "spectrum.h5", field=field, motion=0, slenderness=0)
         pyplot.close("all")
 
 
