@@ -12,6 +12,7 @@ from building import add_build_argument, add_output_argument, build, fail, run_o
 METHODS = ("rk45", "taylor")
 FIELDS = ("angle", "velocity", "margin", "error", "peak", "fall_time", "impacts", "steps",
           "friction_demand", "normal", "status")  # in addition to the region
+CONTACT = "fields of contact and error"
 KERNEL = "avx2"
 
 EXPLANATION = """\
@@ -73,6 +74,7 @@ def scenes(program):
     yield "", "one_sine", "nonlinear", ("region",)
     for field in FIELDS:
         yield f"field {field}", "one_sine", "nonlinear", ("region", field)
+    yield CONTACT, "one_sine", "nonlinear", ("region", "error", "peak", "friction_demand", "normal")
     yield "all fields", "one_sine", "nonlinear", ("region", *FIELDS)
     yield "theory linear", "one_sine", "linear", ("region",)
     for pulse in other_pulses(program):
@@ -109,6 +111,10 @@ def print_table(rows, options):
             f"{row['price_per_point']:>+12.1f}{100 * row['price_per_point'] / least:>+8.2f}%"
             if adds else f"{least:>12.1f}{'':>9}" for row, least in zip(mine, minimal))
         print(f"{adds or 'minimal scene: region':28}{cells}{mine[0]['bytes_per_point']:>9.1f}")
+    for method in METHODS:
+        counts = {row["adds"]: row["instructions_per_point"] for row in rows if row["method"] == method}
+        print(f"{CONTACT}: {counts[CONTACT] / counts['field error']:.2f} times the instructions of region and error "
+              f"with {method}")
     print("\nBytes: heap memory that the sweep allocates per point, including its end states. The "
           "other theory\nand the other pulses have different motions and numbers of steps.")
 

@@ -242,6 +242,16 @@ def print_table(rows, ground):
     print(EXPLANATION_OF_ROWS.format(side=ground.scipy_side))
 
 
+def print_variants(rows):
+    times = {(row["solver"], row["target_error"]): row["us_per_point"] for row in rows}
+    for suffix in ("_our_sines", "_restepping"):
+        for name in dict.fromkeys(name for name, _ in times if name.endswith(suffix)):
+            of = name.removesuffix(suffix)
+            gains = [f"{times[of, target] / time:.2f}" for (solver, target), time in times.items()
+                     if solver == name and time and times.get((of, target))]
+            print(f"{name} is {', '.join(gains) or '-'} times as fast as {of}")
+
+
 def print_times_per_sample(rows, samples, reference):
     steps = reference["steps_of_overturn"] / samples
     print(f"\n{samples} samples; overturn takes {steps:.2f} steps per point and sample, and skips the "
@@ -274,6 +284,7 @@ def run(options):
     medians = time_in_turns(program, solvers, matched, options.rounds)
     rows = records(matched, medians, len(samples))
     print_table(rows, ground)
+    print_variants(rows)
     if samples:
         print_times_per_sample(rows, len(samples), reference)
     write_results(options.output, {"benchmark": "peers", "ground": ground.name, "samples": len(samples),

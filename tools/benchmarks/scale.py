@@ -48,5 +48,5 @@ def run(options):
             print("   ranks  per node  tiles each  seconds  in tiles  rank 0 answering")
             for row in found["runs"]:
                 print(f"{row['ranks']:8}{row['ranks_per_node']:10}{row['tiles_per_rank']:12}"
-                      f"{row['seconds']:9.3g}{100 * row['efficiency']:8.1f} %"
+                      f"{row['seconds']:9.2f}{100 * row['efficiency']:8.1f} %"
                       f"{100 * row['answering']:16.1f} %", flush=True)
