@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Builds the documentation as a site and checks links and anchors, the API of the headers and the
-spelling; runs every code block of sh, python, toml and, where R is installed, r, and the notebooks, and
-compares what they print with the documentation. Called by tools/check docs."""
+"""Builds the documentation as a site and checks links and anchors, the API of the headers, the
+spelling and the measured numbers; runs every code block of sh, python, toml and, where R is installed, r, and the
+notebooks, and compares what they print with the documentation. Called by tools/check docs."""
 
 import argparse
 import json
@@ -12,6 +12,8 @@ import shutil
 import subprocess
 import sys
 import time
+
+import quotes
 
 CHECKOUT = pathlib.Path(__file__).resolve().parent.parent
 BUILT = CHECKOUT / "build-docs"
@@ -129,6 +131,7 @@ def run(what, *command, **options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--python", default="/usr/bin/python3", help="what runs the Python blocks")
+    parser.add_argument("--unmeasured", action="store_true", help="accept numbers whose command is not in measured.md")
     arguments = parser.parse_args()
     BUILT.mkdir(exist_ok=True)
     site = BUILT / "site"
@@ -139,7 +142,8 @@ def main():
     failed += run("API of the headers", "doxygen", str(doxyfile))
     sources = subprocess.run(["git", "ls-files", "*.md", "*.hpp", "*.cpp", "*.py", "*.toml", "*.txt", "tools", "jobs"], text=True,
                              cwd=CHECKOUT, check=True, stdout=subprocess.PIPE).stdout.split()
-    failed += run("spelling", "codespell", "--ignore-words", "docs/words", "--skip", "*.png", *sources)
+    failed += run("spelling", "codespell", "--ignore-words", "docs/words", "--skip", "*.png,docs/measured.md", *sources)
+    failed += quotes.check_pages(arguments.unmeasured)
     failed += run_notebooks()
     failed += run_blocks(arguments.python)
     for failure in failed:
