@@ -20,7 +20,7 @@ TEST(OutputLock, IsRefusedOnlyIfAnotherExists)
     std::atomic<int> held = 0;
     // Locks of other writers may appear and disappear between any two steps.
     const auto take_turns = [&] {
-        for (int turn = 0; turn < 20'000; ++turn) {
+        for (int turn = 0; turn < 4'000; ++turn) {
             try {
                 const OutputLock writer(path);
                 EXPECT_EQ(++held, 1);

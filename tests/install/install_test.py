@@ -74,7 +74,6 @@ class AnInstallation(unittest.TestCase):
         tools = sorted((self.prefix / "bin").glob("overturn-*"))
         self.assertGreater(len(tools), 5)
         for tool in tools:
-            self.assertIn("usage:", run(tool, "--help"))
             self.assertIn(tool.name.replace("-", "\\-"), manual)
             self.assertTrue((self.prefix / f"share/man/man1/{tool.name}.1.gz").exists())
 

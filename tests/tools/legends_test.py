@@ -71,7 +71,7 @@ class TestALegend(Recorded):
     def test_of_boundaries_is_within_it(self):
         few, restitution = "plane.frequency.count=9", "plane.restitution_of_maximum="
         for name, settings in (("one", [few]), ("column", ["plane.frequency=3"]),
-                               ("ten", [few, restitution + "{first=0.7, last=1, count=10}"])):
+                               ("ten", ["plane.frequency.count=3", restitution + "{first=0.7, last=1, count=10}"])):
             self.overturn("boundary", f"{name}.h5", "plane.amplitude.count=20", *settings, job=JOBS / "figure_07a.toml")
             self.assert_within(f"{name}.h5", tool="plot_boundary")
 
