@@ -74,37 +74,21 @@ class AnInstallation(unittest.TestCase):
         tools = sorted((self.prefix / "bin").glob("overturn-*"))
         self.assertGreater(len(tools), 5)
         for tool in tools:
+            self.assertIn("usage:", run(tool, "--help"))
             self.assertIn(tool.name.replace("-", "\\-"), manual)
             self.assertTrue((self.prefix / f"share/man/man1/{tool.name}.1.gz").exists())
 
-    def test_every_tool_works(self):
-        history, boundary, accuracy, recorded = (
-            self.folder / f"{name}.h5" for name in ("history", "boundary", "accuracy", "recorded"))
-        run(self.prefix / "bin/overturn-synthetic-record", "-o", self.folder / "record.AT2")
-        run(self.overturn, "run", self.folder / "job.toml", "-o", recorded, "--set",
-            'scene={record="record.AT2"}', "--set",
-            "plane={scale.values=[1,2], size.values=[1], slenderness=0.2, restitution.values=[0.8]}")
-        run(self.overturn, "history", self.folder / "job.toml", "--at", "amplitude=3.5", "-o", history)
-        run(self.overturn, "boundary", self.folder / "job.toml", "-o", boundary)
-        run(self.overturn, "accuracy", self.folder / "job.toml", "-o", accuracy)
-        (self.folder / "objects.csv").write_text("name,width,height\nvase,0.2,0.5\n")
-        answers = self.folder / "answers.json"
-        answers.write_text(run(self.overturn, "assess", self.folder / "objects.csv", "--period", "0.5", "--json"))
-        hazard = self.folder / "hazard.txt"
-        hazard.write_text("# pga [g]\n0.1 0.01\n2 1e-6\n")
+    def test_every_module_of_the_tools_is_there_and_tools_work(self):
+        sources, installed = HERE.parents[1] / "tools/overturn", self.prefix / "share/overturn/tools/overturn"
+        self.assertEqual(*({str(path.relative_to(folder)) for path in folder.rglob("*.py")}
+                           for folder in (sources, installed)))
         jobs = self.prefix / "share/overturn/jobs"
-        outputs = {"plot-spectrum": (self.spectrum, "spectrum.png"), "plot-landing": (self.spectrum, "landing.png"),
-                   "plot-history": (history, "history.png"), "plot-boundary": (boundary, "boundary.png"),
-                   "plot-accuracy": (accuracy, "accuracy.png"), "plot-phase": ("regions", "phase.png"),
-                   "plot-fragility": (recorded, "fragility.png"), "plot-risk": (recorded, hazard, "risk.png"),
-                   "to-csv": (self.spectrum, "spectrum.csv"), "report": (answers, "answers.html"),
-                   "floor-motion": (jobs / "synthetic.AT2", "--period", "0.5", "--shape", "1", "floor"),
-                   "rock": (jobs / "rock.obj", "--contacts", jobs / "rock_contacts.csv", "rock.csv")}
-        for tool, (*arguments, output) in outputs.items():
+        for tool, *arguments, output in (
+                ("plot-spectrum", self.spectrum, "spectrum.png"), ("to-csv", self.spectrum, "spectrum.csv"),
+                ("synthetic-record", "record.AT2"),
+                ("rock", jobs / "rock.obj", "--contacts", jobs / "rock_contacts.csv", "rock.csv")):
             run(self.prefix / f"bin/overturn-{tool}", *arguments, "-o", self.folder / output)
             self.assertGreater((self.folder / output).stat().st_size, 100, tool)
-        tested = {f"overturn-{tool}" for tool in (*outputs, "synthetic-record")}
-        self.assertEqual({path.name for path in (self.prefix / "bin").glob("overturn-*")}, tested)
 
     def test_the_python_package_has_its_module_beside_it(self):
         tools = self.prefix / "share/overturn/tools"
