@@ -171,7 +171,7 @@ Comparison compare_scans(const std::vector<Scene>& scenes, double lowest_frequen
     std::uniform_real_distribution<double> uniform(0, 1);
     Comparison comparison;
     for (const Scene& scene : scenes) {
-        for (int i = 0; i < 5; ++i) {
+        for (int i = 0; i < 3; ++i) {
             const double alpha = 0.08 + 0.3 * uniform(generator);
             const double r = largest_restitution(alpha) * (0.6 + 0.4 * uniform(generator));
             const double share = uniform(generator);
@@ -187,7 +187,7 @@ Comparison compare_scans(const std::vector<Scene>& scenes, double lowest_frequen
 TEST(Boundary, FindsAllFlipsOfAFinerScan)
 {
     const Comparison comparison = compare_scans(every_scene(), 0.5, 7.5);
-    EXPECT_GT(comparison.flips, 90u);
+    EXPECT_GT(comparison.flips, 50u);
     EXPECT_EQ(comparison.missed, 0u);
     EXPECT_EQ(comparison.missed_by_the_finer, 0u);
 }
@@ -202,7 +202,7 @@ TEST(Boundary, MissesStripsOfSlowPulsesOnlyIfTheyAreNarrow)
         return traits_of(scene.pulse()->kind).form == PulseForm::modulated;
     });
     const Comparison comparison = compare_scans(scenes, 0.4, 0.7);
-    EXPECT_GT(comparison.flips, 300u);
+    EXPECT_GT(comparison.flips, 180u);
     EXPECT_LE(comparison.missed, comparison.flips / 50);
     EXPECT_LT(comparison.widest_missed, 20 * default_search.finest_step);
     EXPECT_LE(comparison.missed_by_the_finer,
@@ -264,7 +264,7 @@ TEST(Boundary, IsUndecidedOnlyWhereVerdictsCannotBeSettled)
     // Without loss the block bounces half a million times under a slow pulse.
     const BoundaryLine line = line_of(0.17, 1, 0.02);
     const Boundary boundary =
-        boundary_on({}, line, {0.9, 1.00001, 1.0001, 1.001, 1.01, 1.5, 2}, widest_kernel());
+        boundary_on({}, line, {0.9, 1.0001, 1.01, 1.5, 2}, widest_kernel());
     EXPECT_FALSE(boundary.complete);
     EXPECT_EQ(boundary.region_at_first, Region::S);
     ASSERT_GE(boundary.flips.size(), 2u);
