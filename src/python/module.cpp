@@ -348,6 +348,7 @@ PYBIND11_MODULE(_core, module)
     module.def("numerics", &numerics_of);
     module.def("evaluate", &evaluate);
     module.def("component_of", &component_of);
+    module.attr("__version__") = OVERTURN_VERSION;
     // Earlier versions of pybind11 exchange wrong values with NumPy 2, without an error.
     module.attr("supports_numpy_2") = PYBIND11_VERSION_HEX >= 0x020C0000;
     module.attr("fields") = all_spectrum_fields();

@@ -20,6 +20,13 @@ class ThePackage(unittest.TestCase):
                           " & set(sys.modules))")
         self.assertEqual(done.stdout, "set()\n", done.stderr)
 
+    def test_has_the_version_of_the_program(self):
+        done = run_python("import overturn; print(overturn.__version__)")
+        program = subprocess.run([os.environ["OVERTURN"], "--version"], capture_output=True, text=True)
+        self.assertEqual(done.stdout.strip(), program.stdout.split()[1], done.stderr)
+        citation = (pathlib.Path(__file__).resolve().parents[2] / "CITATION.cff").read_text()
+        self.assertIn(f"\nversion: {done.stdout}", citation)
+
     def test_lists_its_functions(self):
         done = run_python("import overturn; print([name for name in overturn.__all__ if not getattr(overturn, name)"
                           " or name not in dir(overturn)])")

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from overturn.installation import PACKAGES, explained, overturn_path
 
 if TYPE_CHECKING:
+    __version__: str
     from overturn import plot as plot
     from overturn import risk as risk
     from overturn import rock as rock
@@ -59,6 +60,8 @@ def _module(name):
 def __getattr__(name):
     if name in _MODULES:
         return _module(name)
+    if name == "__version__":
+        return _module("_core").__version__
     if name not in _MODULE_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(_module(_MODULE_OF[name]), name)

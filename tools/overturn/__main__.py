@@ -1,6 +1,5 @@
 """python -m overturn: tests an installation of the package, in a second."""
 
-import importlib.metadata
 import platform
 import sys
 import time
@@ -44,11 +43,7 @@ def records_agree():
 
 
 def main():
-    try:
-        version = importlib.metadata.version("overturn")
-    except importlib.metadata.PackageNotFoundError:
-        version = "(of a checkout)"
-    print(f"overturn {version}, Python {platform.python_version()}, NumPy {np.__version__}, {core.__file__}")
+    print(f"overturn {overturn.__version__}, Python {platform.python_version()}, NumPy {np.__version__}, {core.__file__}")
     passed = True
     for name, test in (("two methods give the same verdicts of 3600 points", methods_agree),
                        ("a motion and its mirror image give the same bits", mirror_images_agree),

@@ -6,6 +6,8 @@ from typing import Any, TypedDict
 from numpy import float64
 from numpy.typing import ArrayLike, NDArray
 
+__version__: str
+
 class Scene: ...
 class Numerics: ...
 

@@ -7,7 +7,7 @@
 
 namespace overturn {
 
-/// Such as "2.0.0".
+/// Such as "3.0.0".
 std::string_view program_version();
 
 /// The commit from which the program was built, with "-dirty" if the sources differed from it;
