@@ -43,7 +43,8 @@ std::string contact_line(const Job& job)
                : std::isfinite(impact.first) ? fmt::format("from {:.3g} to {}", impact.first, none)
                                              : std::string(none);
     };
-    return fmt::format("lifting needs a friction coefficient of {} (b / h), an impact {}{}",
+    return fmt::format("lifting needs a friction coefficient of {} (b / h), an impact {}{}; the "
+                       "motion may need more, see the field friction_demand",
                        text(lift), impact_text(),
                        lift.last > large ? fmt::format("; few contacts have more than {}", large)
                                          : "");

@@ -8,8 +8,7 @@ def expect_empty(ax):
     """Raises an error if there is a picture in the axes of a caller, if any: another one would cover it."""
     if ax is not None and (ax.images or ax.child_axes):
         raise ToolError("the axes already have a picture, which another one would cover. Give other axes, or clear "
-                        "them with ax.clear(). For a curve for each of up to 6 values of an axis, use field= in "
-                        "one call.", USAGE)
+                        "them with ax.clear().", USAGE)
 
 
 def cover(panel, picture, low=0, high=1):
