@@ -85,6 +85,14 @@ class ABatchJob(Scratch):
         self.assertIn("23 tiles were added: requeueing", result.stdout)
         self.assertEqual((self.folder / "requeued").read_text(), "requeue 7\n")
 
+    def test_is_requeued_if_a_rank_was_killed_after_some_tiles(self):
+        shutil.copy(self.folder / "whole.h5", self.folder / "unfinished.h5")
+        self.forget("unfinished.h5", 3)
+        result = self.run_until_done("sh", "-c", "cp unfinished.h5 out.h5; exit 137")
+        self.assertIn("23 tiles were added: requeueing", result.stdout)
+        result = self.run_until_done("sh", "-c", "exit 137")
+        self.assertIn("not requeued: no tile was added", result.stdout)
+
     def test_is_requeued_alone_if_it_is_a_task_of_an_array(self):
         shutil.copy(self.folder / "whole.h5", self.folder / "unfinished.h5")
         self.forget("unfinished.h5", 3)

@@ -127,6 +127,16 @@ class TestMassProperties(unittest.TestCase):
         self.assertAlmostEqual(self.order(corners, 8 * np.pi, inertia, (16, 48)), 2, delta=0.02)
 
 
+class TestTheDistanceOfAContact(unittest.TestCase):
+    def test_is_that_of_the_nearest_face_edge_or_corner(self):
+        box = convex(np.array([[x, y, z] for x in (0, 2) for y in (0, 2) for z in (0, 2)], float))
+        turn = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))[0]
+        for point, distance in (((0.3, 0.7, -0.5), 0.5), ((0.6, 1.1, 1.7), 0.3), ((2, 1, 1), 0), ((3, 1, 3), math.sqrt(2)),
+                                ((-1, -2, -2), 3)):
+            self.assertAlmostEqual(rock._distance(np.array(point), box), distance, places=14)
+            self.assertAlmostEqual(rock._distance(turn @ point, box @ turn.T), distance, places=14)
+
+
 class InTheFolder(InAFolder):
     TOOL = "rock"
 

@@ -15,6 +15,7 @@ from plot_spectrum_test import NOT_COMPUTED, add_coordinate, write_result
 from tool import JOBS, InAFolder, InOneFolder  # adds the package to the path
 import overturn
 from overturn import csv_table
+from overturn.datasets import opened
 
 WORDS = ("urn", "Säule, alt", 'the "lion"', "two\nlines", "", "7")
 
@@ -32,7 +33,7 @@ class Table(InAFolder):
     def expect_all_of(self, name):
         """Compares each row with the data set; returns the data set and the rows."""
         rows = self.rows(name)
-        with overturn.open(self.folder / name) as dataset:
+        with opened(self.folder / name)[0] as dataset:
             dataset.load()
         dimensions = dataset.region.dims
         self.assertEqual(rows[0].keys(), {*dataset.variables})

@@ -6,6 +6,7 @@ import pathlib
 
 import numpy as np
 from overturn.motion_words import is_of_floor, worded
+from overturn.result_file import unfinished_words
 from overturn.spectrum_planes import EQUIVALENTS, JOB, PHYSICAL
 from overturn.tables import RATES, SIZES, STRENGTHS
 
@@ -217,13 +218,6 @@ def subtitle(planes, units=JOB):
         if len(set(column)) == 1:
             words.append(escaped(column[0]))
     return ",  ".join(words + unfinished_words(file))
-
-
-def unfinished_words(file):
-    """Returns the note on missing tiles, if there are any; of a part of a job, with its number."""
-    done, number = int(np.count_nonzero(file.are_computed)), file.are_computed.size
-    part = f"part {file.attrs['part']} of {file.attrs['parts']}, " if "part" in file.attrs else ""
-    return [f"{part}unfinished: {done} of {number} {file.PARTS} computed"] * (done < number)
 
 
 def heading(planes):

@@ -4,6 +4,7 @@ history or setting of an accuracy study; or per bin of a fragility curve."""
 import csv
 import itertools
 import re
+import sys
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from overturn import tables
 from overturn.choice import OPTIONS, add_choice_arguments, chosen
 from overturn.motion_words import VARIABLES, column_named
 from overturn.output_file import BEGINNING, new_file
-from overturn.result_file import HISTORY, SPECTRUM, STUDY, damage_reported, open_result
+from overturn.result_file import HISTORY, SPECTRUM, STUDY, damage_reported, open_result, unfinished_words
 from overturn.result_curves import (add_curve_arguments, add_group_argument, compute_curve, curves_of, open_dataset,
                                     write_csv)
 from overturn.spectrum_planes import COUNTED, JOB, PHYSICAL
@@ -254,3 +255,5 @@ def main(argv=None):
     with open_result(arguments.file) as file:
         file.expect_fields([REGION] * (file.text("kind") == SPECTRUM))
         write(table_of(file, arguments), arguments.output)
+        for note in unfinished_words(file) if file.tiles else ():
+            print(f"to_csv: {file.filename}: {note}; the other rows have fill values", file=sys.stderr)

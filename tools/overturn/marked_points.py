@@ -4,7 +4,8 @@
 import numpy as np
 from matplotlib import colors
 from matplotlib.patches import Patch
-from overturn.captions import spectrum_words, unfinished_words
+from overturn.captions import spectrum_words
+from overturn.result_file import unfinished_words
 from overturn.regions import SAFE, UNSAFE
 
 COLOUR = "#1f5fe0"  # of misjudged blocks

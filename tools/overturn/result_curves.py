@@ -7,6 +7,7 @@ import pathlib
 
 import overturn
 from overturn.block_groups import azimuths_of, groups_of
+from overturn.datasets import opened
 from overturn.exceedance import OVERTURNING
 from overturn.tool import USAGE, Renamed, ToolError
 
@@ -57,7 +58,7 @@ def _how(arguments):
 def open_dataset(path):
     """Opens a result for a tool, with overturn.open(), and reports that a curve cannot be computed from it."""
     try:
-        dataset = overturn.open(path)
+        dataset, _ = opened(path)  # what is unfinished is among the notes of a curve
     except (OSError, ValueError) as error:
         raise ToolError(str(error)) from error
     with dataset:

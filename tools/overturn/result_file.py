@@ -143,6 +143,13 @@ class Result(Mapping):
         return self.tiles.are_computed
 
 
+def unfinished_words(file):
+    """Returns the note on missing tiles, if there are any; of a part of a job, with its number."""
+    done, number = int(np.count_nonzero(file.are_computed)), file.are_computed.size
+    part = f"part {file.attrs['part']} of {file.attrs['parts']}, " if "part" in file.attrs else ""
+    return [f"{part}unfinished: {done} of {number} {file.PARTS} computed"] * (done < number)
+
+
 def text_of(holder, attribute):
     value = holder.attrs.get(attribute, "")
     return value.decode() if isinstance(value, bytes) else str(value)
@@ -230,8 +237,8 @@ def path_of(result):
     path = result.encoding.get("source")
     if path is None or not hasattr(result, "data_vars"):
         raise ValueError("this is no data set of overturn.open(). Pass one, or the path of the file.")
-    from overturn.datasets import open as open_dataset
-    with open_dataset(path) as whole:
+    from overturn.datasets import opened
+    with opened(path)[0] as whole:
         if not whole.identical(result):
             raise ValueError(f"the data set differs from \"{path}\", and only whole boundaries and histories are drawn. "
                              "Pass the path, and choose a part by the arguments of the function.")

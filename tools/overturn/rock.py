@@ -50,6 +50,7 @@ SUFFIXES = (".obj", ".ply", ".stl")
 COARSEST = 1e-3  # step of single precision over the least extent of the mesh [1]
 FLAT = 0.01  # deviation of a hole from a plane over its width, to be filled [1]
 MARGIN = 0.02  # by which contacts may lie outside the mesh, over the diagonal of its box [1]
+FAR = 0.03  # distance of a contact from the surface, over the diagonal, that is reported [1]
 LINE = 1e-6  # width of the contacts over their length, below which they are on one line [1]
 DENSE = 12  # corners of an outline from which on its points are not moved one by one
 SMALLEST, LARGEST = 0.05, 50.0  # usual sizes of a rock [m]
@@ -66,6 +67,7 @@ class Rock:
     contacts: np.ndarray  # from the centre of mass
     hull: np.ndarray  # the contacts on the outline in plan, counter-clockwise
     outline: np.ndarray  # of the whole mesh in plan
+    gap: float  # largest distance of a contact from the surface of the mesh
     faces: int
     notes: tuple[str, ...]
 
@@ -174,18 +176,38 @@ def measure(mesh: str | os.PathLike, contacts: str | os.PathLike, unit: str = "m
                         "coordinates and the unit of the mesh.")
     axes = UNITS[unit] * np.array([np.sign(axis) * np.eye(3)[abs(axis) - 1] for axis in PLAN[up]])
     faces, notes = _closed(points, faces, mesh, fill, UNITS[unit])
-    volume, centre, inertia = mass_properties(((points - origin) @ axes.T)[faces])
+    corners = ((points - origin) @ axes.T)[faces]
+    volume, centre, inertia = mass_properties(corners)
     if abs(volume) < 1e-9 * (UNITS[unit] * diagonal) ** 3:
         raise ToolError(f"\"{mesh}\" has no volume. Give a mesh of the whole surface.")
     if volume < 0:
         notes.append("the mesh was turned inside out; its faces are turned back")
     if not SMALLEST < UNITS[unit] * diagonal < LARGEST:
         notes.append(f"the diagonal of the mesh is {UNITS[unit] * diagonal:.4g} m. Is its unit {unit} (--unit)?")
+    gaps = [_distance((support - origin) @ axes.T, corners) for support in supports]
+    farthest = int(np.argmax(gaps))
+    if gaps[farthest] > FAR * UNITS[unit] * diagonal:
+        notes.append(f"contact {farthest + 1} is {gaps[farthest]:.3g} m from the surface of the mesh. Where does the rock touch "
+                     "its pedestal?")
     supports = (supports - origin) @ axes.T - centre
     outline = (points - origin) @ axes.T - centre
     return Rock(name=name, volume=abs(volume), centre=origin + np.linalg.solve(axes, centre), inertia=inertia,
                 contacts=supports, hull=_hull_of(supports), outline=outline[ConvexHull(outline[:, :2]).vertices],
-                faces=len(faces), notes=tuple(notes))
+                gap=gaps[farthest], faces=len(faces), notes=tuple(notes))
+
+
+def _distance(point, corners):
+    """Returns the distance of a point from the triangles (n, 3, 3)."""
+    start = corners - point
+    edge = np.roll(start, -1, axis=1) - start
+    length2 = np.maximum((edge**2).sum(axis=2), np.finfo(float).tiny)
+    place = np.clip(-(start * edge).sum(axis=2) / length2, 0, 1)
+    from_edges = np.linalg.norm(start + place[..., None] * edge, axis=2).min(axis=1)
+    normal = np.cross(edge[:, 0], edge[:, 1])
+    size = np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)
+    above = (np.einsum("fki,fi->fk", np.cross(start, edge), normal) >= 0).all(axis=1)  # its foot is within the triangle
+    from_plane = np.abs((start[:, 0] * normal).sum(axis=1)) / size
+    return float(np.where(above, from_plane, from_edges).min())
 
 
 def mass_properties(corners):
@@ -429,7 +451,7 @@ def summary(rock, columns, arguments):
     yield f"mesh        {rock.faces} faces, closed; volume {rock.volume:.5g} m3" + (
         f", mass {arguments.density * rock.volume:.5g} kg" if arguments.density else "")
     yield f"centre      {_place(rock.centre)} in the mesh"
-    yield f"contacts    {len(rock.contacts)}, {len(rock.hull)} on their outline"
+    yield f"contacts    {len(rock.contacts)}, {len(rock.hull)} on their outline; up to {rock.gap:.2g} m from the surface"
     least, azimuth = rock.weakest()
     yield f"weakest     alpha = {math.degrees(least):.4g} degrees towards {towards(azimuth, arguments.x_azimuth)}"
     yield ""
