@@ -2,17 +2,6 @@
 
 namespace overturn {
 
-template <Number S, class Excitation>
-SlidingEnd<S> run_sliding(const Block<S>& block, const S& gyration, const S& friction,
-                          const Excitation& excitation, const S& tolerance, Follow follow)
-{
-    SlidingMotion<S, Excitation> motion(block, gyration, friction, excitation, tolerance, follow);
-    while (!motion.is_over()) {
-        motion.advance();
-    }
-    return motion.end();
-}
-
 template class SlidingMotion<double, PulseExcitation<double>>;
 template class SlidingMotion<double, RecordExcitation<double, Directions::both>>;
 template class SlidingMotion<long double, PulseExcitation<long double>>;

@@ -22,7 +22,7 @@ S polynomial_at(const std::array<S, count>& c, const S& t)
 
 /// 1 / (k + 1).
 template <Number S, std::size_t count>
-inline constexpr std::array<S, count> shares = [] {
+inline const std::array<S, count> shares = [] {
     std::array<S, count> all{};
     for (std::size_t k = 0; k < count; ++k) {
         all[k] = S(1) / S(int(k) + 1);
@@ -32,7 +32,7 @@ inline constexpr std::array<S, count> shares = [] {
 
 /// 1 / (degree over k).
 template <Number S, std::size_t count>
-inline constexpr std::array<S, count> per_choices = [] {
+inline const std::array<S, count> per_choices = [] {
     std::array<S, count> all{};
     S choices(1);
     for (std::size_t k = 0; k < count; ++k) {

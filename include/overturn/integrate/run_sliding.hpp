@@ -17,7 +17,9 @@ struct SlidingEnd {
     Region region = Region::undecided; ///< undecided if it jams, leaves the ground or is stopped
     bool fell = false;                 ///< during the ground motion
     bool slipped = false;
-    bool slips_after = false; ///< it slips after the end of the ground motion: there is no margin
+    /// It slips after the end of the ground motion, before the verdict is known: there is no
+    /// margin.
+    bool slips_after = false;
     bool jammed = false;
     bool lifted_off = false;
     bool capped = false;
@@ -47,7 +49,10 @@ enum class Follow {
 /// The largest number of steps of a motion, in addition to one per interval of a record.
 inline constexpr int most_sliding_steps = 1 << 18;
 
-/// See SlidingMotion. Defined for double and long double, under pulses and under records.
+/// The tolerance of references in 50 digits: the same order needs few steps.
+inline constexpr double sliding_tolerance_in_50_digits = 1e-24;
+
+/// See SlidingMotion. Defined for double, long double and Digits50, under pulses and under records.
 template <Number S, class Excitation>
 SlidingEnd<S> run_sliding(const Block<S>& block, const S& gyration, const S& friction,
                           const Excitation& excitation, const S& tolerance,

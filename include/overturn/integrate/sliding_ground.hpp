@@ -136,7 +136,7 @@ public:
             return std::nullopt;
         }
         const Field2<S> field = field_after(S(0));
-        for (const S side : {S(1), S(-1)}) {
+        for (const S& side : {S(1), S(-1)}) {
             if (side * field.along > on(side).threshold() * -field.normal) {
                 moved_ = phase_;
                 return side;

@@ -204,9 +204,11 @@ private:
     Series corner_series(const Field2<Coeffs>& field) const
     {
         const SlidingState<S> state{tilt_, turning_, slip_ * unit()};
-        return mode_ == SlidingMode::slide_rock
-                   ? series_of_slipping<order>(here(), state, direction_, field)
-                   : series_of_sticking<order>(here(), state, field);
+        return straight_line<S>([&] {
+            return mode_ == SlidingMode::slide_rock
+                       ? series_of_slipping<order>(here(), state, direction_, field)
+                       : series_of_sticking<order>(here(), state, field);
+        });
     }
 
     /// A step of a base that slides flat.
@@ -216,9 +218,8 @@ private:
         const Field2<Coeffs> field = ground_.field_series(S(1));
         const Coeffs speed = speed_series(field);
         const S left = ground_.left_of_piece();
-        S h = ground_.longest(left, speed, order,
-                              S(std::numeric_limits<S>::epsilon()) * ground_.plus().gravity *
-                                  unit() * unit());
+        const S share = lesser<S>(allowed_ / least_, S(0x1p-52)); // rounding of double, or less
+        S h = ground_.longest(left, speed, order, share * ground_.plus().gravity * unit() * unit());
         if (is_free()) { // of a constant deceleration
             h = speed[1] < 0 ? S(-2 * speed[0] / speed[1]) : h;
         }
@@ -565,6 +566,17 @@ private:
     int free_impacts_ = 0;
     SlidingEnd<S> result_{};
 };
+
+template <Number S, class Excitation>
+SlidingEnd<S> run_sliding(const Block<S>& block, const S& gyration, const S& friction,
+                          const Excitation& excitation, const S& tolerance, Follow follow)
+{
+    SlidingMotion<S, Excitation> motion(block, gyration, friction, excitation, tolerance, follow);
+    while (!motion.is_over()) {
+        motion.advance();
+    }
+    return motion.end();
+}
 
 extern template class SlidingMotion<double, PulseExcitation<double>>;
 extern template class SlidingMotion<double, RecordExcitation<double, Directions::both>>;

@@ -67,9 +67,8 @@ T turn(SlidingSeries<order, T>& c)
 ///
 ///     (k^2 + R^2) rate' = y g1 - x g2,   F = x'' - g1,   N = y'' - g2
 template <int order, Number T>
-[[gnu::flatten]] SlidingSeries<order, T>
-series_of_sticking(const SlidingSide<T>& side, const SlidingState<T>& state,
-                   const Field2<Coefficients<order + 1, T>>& field)
+SlidingSeries<order, T> series_of_sticking(const SlidingSide<T>& side, const SlidingState<T>& state,
+                                           const Field2<Coefficients<order + 1, T>>& field)
 {
     using S = scalar_t<T>;
     SlidingSeries<order, T> c =
@@ -94,9 +93,9 @@ series_of_sticking(const SlidingSide<T>& side, const SlidingState<T>& state,
 ///
 ///     D N = -g2 - rate^2 y,   k^2 rate' = N m,   (slip + x')' = g1 - mu direction N
 template <int order, Number T>
-[[gnu::flatten]] SlidingSeries<order, T>
-series_of_slipping(const SlidingSide<T>& side, const SlidingState<T>& state, const T& direction,
-                   const Field2<Coefficients<order + 1, T>>& field)
+SlidingSeries<order, T> series_of_slipping(const SlidingSide<T>& side, const SlidingState<T>& state,
+                                           const T& direction,
+                                           const Field2<Coefficients<order + 1, T>>& field)
 {
     using S = scalar_t<T>;
     SlidingSeries<order, T> c = first_coefficients<order>(side, state);
