@@ -150,6 +150,14 @@ class Friction(Scratch):
         with h5py.File(self.folder / "list.h5") as file:
             np.testing.assert_array_equal(file["slide"][()].ravel(), found["slide"])
 
+    def test_gives_a_margin_that_does_not_depend_on_the_other_fields(self):
+        alone = self.computed(friction="0.4", fields=["margin", "region"])
+        found = self.computed(friction="0.4", fields=["margin", "region", "slide", "peak", "fall_time"])
+        np.testing.assert_array_equal(found["margin"], alone["margin"])
+        slips = np.isnan(alone["margin"])
+        self.assertTrue(0 < slips.sum() < slips.size / 2)
+        np.testing.assert_array_equal(alone["margin"][~slips] > 0, alone["region"][~slips] <= 2)
+
     def test_has_the_verdicts_of_resolved_jobs(self):
         plain = self.computed(friction="0.45")
         resolved = self.computed(friction="0.45", numerics="resolve = true")

@@ -277,7 +277,7 @@ private:
     void note_slip()
     {
         result_.slipped = true;
-        result_.slips_after = result_.slips_after || is_free();
+        result_.slips_after = result_.slips_after || (is_free() && !is_known_);
     }
 
     /// A step on one corner.
@@ -493,7 +493,7 @@ private:
     /// between its corners, stands.
     void decide_by_energy()
     {
-        if (!ground_.is_level() || follow_ != Follow::until_decided) {
+        if (!ground_.is_level() || is_known_) {
             return;
         }
         const SlidingSide<S>& side = here();
@@ -508,7 +508,8 @@ private:
         };
         const S barrier = side.gravity * lesser<S>(reach(side.base), reach(side.other_base));
         const S rounding(S(1) - 64 * std::numeric_limits<S>::epsilon());
-        if (at.x < 0 && kinetic + side.gravity * at.y < barrier * rounding) {
+        is_known_ = at.x < 0 && kinetic + side.gravity * at.y < barrier * rounding;
+        if (is_known_ && follow_ == Follow::until_decided) {
             decide(Region::S);
         }
     }
@@ -534,6 +535,7 @@ private:
                 greater<S>(result_.peak, scale * largest_free_tilt<theory>(state, block));
             return decide(Region::S);
         }
+        is_known_ = true;
         if (follow_ != Follow::until_decided) {
             return;
         }
@@ -563,6 +565,7 @@ private:
     bool is_ended_ = false;
     bool is_inside_ = true;
     bool is_over_ = false;
+    bool is_known_ = false; // the verdict, whatever is left of the motion
     int free_impacts_ = 0;
     SlidingEnd<S> result_{};
 };

@@ -32,12 +32,15 @@ using ErrorDistribution = std::array<double, error_quantiles.size()>;
 struct AccuracyRow {
     Numerics numerics;
     double seconds_per_point = 0; ///< of compute_regions() on one core; set by the caller [s]
-    double steps = 0;             ///< tried, per point; with resolve, of the last integration only
+    /// Tried, per point: of the last integration only if verdicts are resolved, and of that with
+    /// friction only if the block slips.
+    double steps = 0;
     double evaluations = 0; ///< per point: of the acceleration (rk45), or of its series (taylor)
     /// Infinite for points with a different kind of end; NaN if there are no points.
     ErrorDistribution angle{};    ///< [rad]
     ErrorDistribution velocity{}; ///< [rad]
-    ErrorDistribution margin{};   ///< [1]
+    ErrorDistribution margin{};   ///< [1]; without the points that have none
+    ErrorDistribution slide{};    ///< of blocks with friction, over R [1]
     std::int64_t wrong_verdicts = 0;
     std::int64_t undecided = 0; ///< points without a verdict
     std::array<std::int64_t, decided_regions> wrong_verdicts_by_region{}; ///< by the true region
@@ -64,7 +67,7 @@ struct AccuracySample {
     std::int64_t in_digits = 0; ///< points that are also computed in 50 digits
     std::int64_t settled = 0;   ///< points with a settled verdict
     std::array<std::int64_t, decided_regions> by_region{};
-    std::array<std::int64_t, distance_limits.size()> by_distance{};
+    std::array<std::int64_t, distance_limits.size()> by_distance{}; ///< of the known margins
 };
 
 /// A comparison of methods: first the sample and its reference values, then row by row.
@@ -83,6 +86,7 @@ public:
     void compute_regions(const Numerics& numerics) const;
 
 private:
+    void compute_in_50_digits(std::int64_t wanted);
     void count_verdicts(const Outcomes& outcomes, AccuracyRow& row) const;
     void measure_errors(const Outcomes& outcomes, AccuracyRow& row) const;
 
