@@ -136,6 +136,8 @@ verdicts at those down to 1e-8 (rk45: from 1e-4), on a sample of the job's plane
   evaluations      evaluations per point, of the acceleration (rk45) or of its series (taylor)
   error            error of the margin, against 50 digits; inf if the block falls in only one of
                    the two computations
+  slide            with friction: error of the final slide over R; blocks that slip after the ground
+                   motion have no margin
   wrong verdicts   as a share of the points whose true verdict is known; OUT.h5 contains the
                    number
   undecided        number of points without a verdict

@@ -123,7 +123,7 @@ int history(const HistoryOptions& options)
     widest_kernel(); // throws if this processor supports none
     const Job job = read_job_of_one_point(options);
     const OutputLock output_lock(options.output);
-    expect_study_output(job, options.output, FileKind::history, output_lock);
+    expect_study_output(options.output, FileKind::history, output_lock);
     print_warnings(warnings_on(job));
     HistoryView view{.samples = options.samples};
     if (options.until > 0) {

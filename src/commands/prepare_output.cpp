@@ -100,15 +100,8 @@ std::optional<std::vector<std::int64_t>> prepare_output(const Job& job,
     return damaged;
 }
 
-void expect_study_output(const Job& job, const std::string& path, FileKind kind,
-                         const OutputLock& lock)
+void expect_study_output(const std::string& path, FileKind kind, const OutputLock& lock)
 {
-    if (kind == FileKind::accuracy && job.problem.grid.may_slip()) {
-        throw Error(
-            exit_code::job,
-            "friction is given, but this accuracy study is that of a block that does not slip. "
-            "Remove friction.");
-    }
     const GuardedReading guarded(path, lock.path());
     expect_room_for(path, kind);
 }

@@ -27,9 +27,7 @@ std::optional<std::vector<std::int64_t>> prepare_output(const Job& job,
                                                         const std::string& path,
                                                         const OutputLock& lock);
 
-/// Throws Error if a history or an accuracy study of this job cannot be computed, because blocks
-/// may slip, or cannot be written to the path. lock: of the file.
-void expect_study_output(const Job& job, const std::string& path, FileKind kind,
-                         const OutputLock& lock);
+/// Throws Error if a history or an accuracy study cannot be written to the path. lock: of the file.
+void expect_study_output(const std::string& path, FileKind kind, const OutputLock& lock);
 
 } // namespace overturn

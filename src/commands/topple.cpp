@@ -35,7 +35,7 @@ int topple(const ToppleOptions& options)
     std::optional<OutputLock> output_lock;
     if (!options.history.empty()) {
         output_lock.emplace(options.history);
-        expect_study_output(job, options.history, FileKind::history, *output_lock);
+        expect_study_output(options.history, FileKind::history, *output_lock);
     }
     std::optional<Progress> progress;
     const std::vector<DirectedAnswer> answers = answers_for(

@@ -135,7 +135,7 @@ void add_list(hid_t file, const char* name, const char* dimension, const List& l
 }
 
 /// The table with one row per setting.
-void add_rows(hid_t file, const std::vector<AccuracyRow>& rows)
+void add_rows(hid_t file, const std::vector<AccuracyRow>& rows, bool may_slip)
 {
     using Row = AccuracyRow;
     const StoredDimension settings{"setting", std::int64_t(rows.size())};
@@ -169,6 +169,10 @@ void add_rows(hid_t file, const std::vector<AccuracyRow>& rows)
     add_along(quantile, "velocity_error", "error of the velocity against 50 digits", "rad",
               &Row::velocity);
     add_along(quantile, "margin_error", "error of the margin against 50 digits", "1", &Row::margin);
+    if (may_slip) {
+        add_along(quantile, "slide_error", "error of the slide over R against 50 digits", "1",
+                  &Row::slide);
+    }
     add("wrong_verdicts", "wrong verdicts", "1", &Row::wrong_verdicts);
     add_along(region, "wrong_verdicts_by_region", "wrong verdicts in the region", "1",
               &Row::wrong_verdicts_by_region);
@@ -195,7 +199,7 @@ void add_study(hid_t file, const Scene& scene, const AccuracySample& sample,
                         .long_name = scene.worded("region at the end of the ground motion"),
                         .code_names = region_names});
     add_list(file, "distance", "distance", distance_limits, "upper limit of |margin| in the class");
-    add_rows(file, rows);
+    add_rows(file, rows, sample.grid.may_slip());
     add_list(file, "points_by_region", "region", sample.by_region,
              "number of points of the region");
     add_list(file, "points_by_distance", "distance", sample.by_distance,

@@ -11,11 +11,15 @@ namespace overturn {
 
 namespace {
 
-std::size_t distance_class(double margin)
+/// Counts a point by its true region and, if it has a margin, by that.
+void count(const Outcome& truth, auto& by_region, auto& by_distance)
 {
-    return std::size_t(
-        std::upper_bound(distance_limits.begin(), distance_limits.end() - 1, std::abs(margin)) -
-        distance_limits.begin());
+    ++by_region[std::size_t(truth.region)];
+    if (!std::isnan(truth.margin)) {
+        const auto* const limit = std::upper_bound(
+            distance_limits.begin(), distance_limits.end() - 1, std::abs(truth.margin));
+        ++by_distance[std::size_t(limit - distance_limits.begin())];
+    }
 }
 
 ErrorDistribution distribution(std::vector<double> errors)
@@ -138,16 +142,26 @@ AccuracyStudy::AccuracyStudy(const Scene& scene, const Grid& grid, std::int64_t 
         const Outcome& truth = (*truth_)[i];
         if (is_decided(truth.region)) {
             ++sample_.settled;
-            ++sample_.by_region[std::size_t(truth.region)];
-            ++sample_.by_distance[distance_class(truth.margin)];
+            count(truth, sample_.by_region, sample_.by_distance);
         }
     }
-    chosen_ = evenly_chosen(tiling_of(problem_), in_digits);
+    compute_in_50_digits(in_digits);
+}
+
+void AccuracyStudy::compute_in_50_digits(std::int64_t wanted)
+{
+    chosen_ = evenly_chosen(tiling_of(problem_), wanted);
     Outcomes exact(truth_->size(), {.margin = true});
     for (const int point : chosen_) {
-        run_->run_in_more_digits<Digits50>(point, exact);
+        if (run_->has_friction()) {
+            run_->let_slip_in_50_digits(point, exact);
+        } else {
+            run_->run_in_more_digits<Digits50>(point, exact);
+        }
     }
-    std::erase_if(chosen_, [&](int point) { return exact[point].has(outcome_flag::without_end); });
+    std::erase_if(chosen_, [&](int point) {
+        return exact[point].has(outcome_flag::without_end) || !is_decided(exact[point].region);
+    });
     sample_.in_digits = std::int64_t(chosen_.size());
     in_50_digits_ = std::make_shared<Outcomes>(std::move(exact));
 }
@@ -165,9 +179,12 @@ void AccuracyStudy::compute_regions(const Numerics& numerics) const
 
 AccuracyRow AccuracyStudy::measure(const Numerics& numerics) const
 {
-    const Outcomes outcomes = outcomes_of(
-        *run_, numerics,
-        {.error = knows_errors(numerics), .region = true, .margin = true, .steps = true});
+    const Outcomes outcomes = outcomes_of(*run_, numerics,
+                                          {.error = knows_errors(numerics),
+                                           .region = true,
+                                           .margin = true,
+                                           .steps = true,
+                                           .slide = run_->has_friction()});
     AccuracyRow row;
     row.numerics = numerics;
     count_verdicts(outcomes, row);
@@ -178,26 +195,28 @@ AccuracyRow AccuracyStudy::measure(const Numerics& numerics) const
 void AccuracyStudy::count_verdicts(const Outcomes& outcomes, AccuracyRow& row) const
 {
     double steps = 0;
+    double evaluations = 0;
     for (int point = 0; point < outcomes.size(); ++point) {
         const Outcome& found = outcomes[point];
         const Outcome& truth = (*truth_)[point];
+        const bool is_series = row.numerics.method == Method::taylor || found.has(status::slipped);
         steps += found.steps;
+        evaluations += found.steps * (is_series ? 1 : 6);
         if (!is_decided(found.region)) {
             ++row.undecided;
         } else if (is_decided(truth.region) && is_safe(found.region) != is_safe(truth.region)) {
             ++row.wrong_verdicts;
-            ++row.wrong_verdicts_by_region[std::size_t(truth.region)];
-            ++row.wrong_verdicts_by_distance[distance_class(truth.margin)];
+            count(truth, row.wrong_verdicts_by_region, row.wrong_verdicts_by_distance);
         }
     }
     row.steps = steps / double(sample_.grid.points());
-    row.evaluations = row.steps * (row.numerics.method == Method::rk45 ? 6 : 1);
+    row.evaluations = evaluations / double(sample_.grid.points());
 }
 
 void AccuracyStudy::measure_errors(const Outcomes& outcomes, AccuracyRow& row) const
 {
     const bool with_bounds = knows_errors(row.numerics);
-    std::vector<double> angle, velocity, margin, ratios;
+    std::vector<double> angle, velocity, margin, slide, ratios;
     std::int64_t exceeded = 0;
     for (const int point : chosen_) {
         const Outcome& found = outcomes[point];
@@ -215,6 +234,12 @@ void AccuracyStudy::measure_errors(const Outcomes& outcomes, AccuracyRow& row) c
         };
         angle.push_back(error(Field::angle));
         velocity.push_back(error(Field::velocity));
+        if (run_->has_friction()) {
+            slide.push_back(error(Field::slide));
+        }
+        if (std::isnan(found.margin) && std::isnan((*in_50_digits_)[point].margin)) {
+            continue; // it slips after the ground motion
+        }
         margin.push_back(error(Field::margin));
         if (with_bounds) {
             exceeded += margin.back() > found.error;
@@ -226,9 +251,10 @@ void AccuracyStudy::measure_errors(const Outcomes& outcomes, AccuracyRow& row) c
     row.angle = distribution(angle);
     row.velocity = distribution(velocity);
     row.margin = distribution(margin);
+    row.slide = distribution(slide);
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     static_assert(error_quantiles[0] == 0.5); // the median
-    row.bound_exceeded = with_bounds ? double(exceeded) / double(chosen_.size()) : unknown;
+    row.bound_exceeded = with_bounds ? double(exceeded) / double(margin.size()) : unknown;
     row.bound_over_error = with_bounds ? distribution(ratios)[0] : unknown;
 }
 

@@ -178,50 +178,75 @@ bool PointRun::differ_in_frequency_alone(int one, int other) const
 namespace {
 
 /// What a slipping block adds to an outcome.
-Outcome outcome_of(const SlidingEnd<double>& end, const Block<double>& given, Outcome outcome)
+template <class T>
+Outcome outcome_of(const SlidingEnd<T>& end, const Block<T>& given, Outcome outcome)
 {
     const bool is_decided = end.region != Region::undecided;
-    const Block<double> block = seen_from(end.state.side, given);
+    const Block<T> block = seen_from(end.state.side, given);
     const auto flag = [](bool holds, std::uint16_t bit) { return holds ? bit : 0; };
-    outcome.tilt = is_decided ? end.state.tilt : unknown;
-    outcome.rate = is_decided ? end.state.rate : unknown;
-    outcome.side = end.state.side;
+    outcome.tilt = is_decided ? double(end.state.tilt) : unknown;
+    outcome.rate = is_decided ? double(end.state.rate) : unknown;
+    outcome.side = double(end.state.side);
     outcome.flags =
         std::uint16_t(flag(end.fell, outcome_flag::fell) | flag(end.slipped, status::slipped) |
                       flag(end.jammed, status::jammed) | flag(end.lifted_off, status::lifts_off) |
                       flag(end.capped, status::cap_was_hit));
     outcome.region = end.region;
     outcome.margin = !is_decided || end.slips_after ? unknown
-                     : end.fell ? margin_of_fall<Theory::nonlinear>(end.state.rate, block)
-                                : margin_after_pulse<Theory::nonlinear>(end.state, block);
+                     : end.fell ? double(margin_of_fall<Theory::nonlinear>(end.state.rate, block))
+                                : double(margin_after_pulse<Theory::nonlinear>(end.state, block));
     outcome.error = is_decided ? unknown : infinity;
     outcome.impacts = end.impacts;
     outcome.steps = end.steps;
-    outcome.phase = end.phase;
-    outcome.peak = is_decided ? end.peak : unknown;
-    outcome.slide = is_decided ? end.slide : unknown;
-    outcome.slide_peak = is_decided ? end.slide_peak : unknown;
-    outcome.uplift = end.uplift;
-    outcome.fall_after = end.time_of_fall;
+    outcome.phase = double(end.phase);
+    outcome.peak = is_decided ? double(end.peak) : unknown;
+    outcome.slide = is_decided ? double(end.slide) : unknown;
+    outcome.slide_peak = is_decided ? double(end.slide_peak) : unknown;
+    outcome.uplift = double(end.uplift);
+    outcome.fall_after = double(end.time_of_fall);
     return outcome;
 }
 
 } // namespace
 
+template <class T>
+SlidingEnd<T> PointRun::run_with_friction(int point, double frequency, T tolerance,
+                                          Follow follow) const
+{
+    throw_if_dropped();
+    const Point& at = this->point(point);
+    return with_excitation<T, Theory::nonlinear>(point, [&](auto excitation) {
+        excitation.frequency = T(frequency);
+        return run_sliding<T>(block_in<T>(at.block), T(at.gyration), T(at.friction), excitation,
+                              tolerance, follow);
+    });
+}
+
+void PointRun::let_slip_in_50_digits(int point, Outcomes& outcomes) const
+{
+    if (falls_freely(point)) {
+        outcomes[point] = free_fall;
+        return;
+    }
+    const Point& at = this->point(point);
+    const auto run = [&](Follow follow) {
+        return run_with_friction(point, at.frequency, Digits50(sliding_tolerance_in_50_digits),
+                                 follow);
+    };
+    // A block that only slips when it has last passed alpha does not slip.
+    const SlidingEnd<Digits50> decided = run(Follow::until_decided);
+    outcomes[point] = outcome_of(decided.slipped ? run(Follow::until_stuck) : decided,
+                                 block_in<Digits50>(at.block), at_rest);
+}
+
 PointRun::Slip PointRun::slip_of(int point, double frequency, const Numerics& numerics,
                                  const Outputs& outputs) const
 {
-    const Point& at = this->point(point);
     const Follow follow = outputs.peak || outputs.phase || outputs.slide ? Follow::until_stuck
                                                                          : Follow::until_decided;
     const auto run = [&]<class T>(T tolerance) {
-        return with_excitation<T, Theory::nonlinear>(point, [&](auto excitation) {
-            excitation.frequency = T(frequency);
-            return run_sliding<T>(block_in<T>(at.block), T(at.gyration), T(at.friction), excitation,
-                                  tolerance, follow);
-        });
+        return run_with_friction(point, frequency, tolerance, follow);
     };
-    throw_if_dropped();
     Slip slip{.end =
                   run(numerics.resolve ? tolerances_to_confirm[0]
                                        : std::min(numerics.tolerance, loosest_sliding_tolerance))};
@@ -230,7 +255,7 @@ PointRun::Slip PointRun::slip_of(int point, double frequency, const Numerics& nu
         const SlidingEnd<double> better = run(tolerances_to_confirm[1]);
         slip.is_settled = better.region == slip.end.region;
         const auto margin_of = [&](const SlidingEnd<double>& end) {
-            return outcome_of(end, at.block, {}).margin;
+            return outcome_of(end, this->point(point).block, {}).margin;
         };
         slip.error = slip.is_settled
                          ? 2 * std::abs(margin_of(better) - margin_of(slip.end)) + 0x1p-50

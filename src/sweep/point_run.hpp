@@ -87,6 +87,10 @@ public:
     /// Whether blocks have a friction coefficient, and may slip.
     bool has_friction() const;
 
+    /// The motion of one point with friction, whether it slips or not, in 50 digits. Values are
+    /// rounded to double in the end; the margin has no error.
+    void let_slip_in_50_digits(int point, Outcomes& outcomes) const;
+
     /// Replaces the outcomes of the blocks that slip; those of the others, with the friction that
     /// they need to stick, are known.
     void let_slip(const Numerics& numerics, const Outputs& outputs, Outcomes& outcomes) const;
@@ -116,7 +120,10 @@ private:
         double error = 0;       ///< of the margin, if it is asked for
         bool is_settled = true; ///< if verdicts are resolved: all runs have the region
     };
-    /// frequency: instead of that of the point.
+    /// The motion of a point with friction in numbers of type T. frequency: instead of its own.
+    template <class T>
+    SlidingEnd<T> run_with_friction(int point, double frequency, T tolerance, Follow follow) const;
+
     Slip slip_of(int point, double frequency, const Numerics& numerics,
                  const Outputs& outputs) const;
 

@@ -41,6 +41,21 @@ class AnAccuracyStudy(Scratch):
             self.assertLess(file.attrs["points_in_50_digits"], 32)
             self.assertTrue(np.isfinite(file["margin_error"][:]).all())
 
+    def test_has_the_error_of_the_slide_with_friction(self):
+        result = self.overturn("accuracy", JOBS / "sliding.toml", "-o", "slip.h5", "--points", "16", "--digits", "16",
+                               "--set", "block.friction=0.4", "--set", "plane.pga.last=0.8")
+        self.assert_exit(result, 0, "16 points, 16 with a settled verdict, 16 in 50 digits", " slide ")
+        with h5py.File(self.folder / "slip.h5") as file:
+            plain = (file["method"][:] == 1) & (file["resolve"][:] == 0) & (file["tolerance"][:] < 2e-8)
+            largest = file["slide_error"][:, -1][plain]  # at 1e-8, 1e-9, ...
+            self.assertLess(largest[4], 1e-3 * largest[0])
+            self.assertGreater(largest[4], 0)
+        result = self.tool("plot_accuracy", "slip.h5", "-o", "slip.svg")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        picture = (self.folder / "slip.svg").read_text()
+        for words in ("error of the slide", "error of the margin"):
+            self.assertIn(f">{words}, 99th percentile<", picture)
+
     def test_is_described_by_info(self):
         self.have_study()
         self.assert_exit(self.overturn("info", "study.h5"), 0, "A small plane",

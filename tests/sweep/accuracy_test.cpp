@@ -109,6 +109,78 @@ TEST(AccuracyStudy, HasBoundsOnlyWhereErrorsAreKnown)
     EXPECT_GT(row.bound_over_error, 1);
 }
 
+/// Blocks that stay flat, that rock and slip, and that hardly slip.
+AccuracyStudy made_with_friction()
+{
+    return {
+        {},
+        grid_of({}, {number("slenderness", 0.3217506), number("restitution_of_maximum", 1),
+                     axis("friction", {0.3, 0.4, 0.7}), axis("amplitude", AxisRange{1.2, 8, 100}),
+                     axis("frequency", AxisRange{0.5, 8, 100})}),
+        108,
+        18,
+        widest_kernel()};
+}
+
+const AccuracyStudy& study_with_friction()
+{
+    static const AccuracyStudy made = made_with_friction();
+    return made;
+}
+
+TEST(AccuracyStudyWithFriction, HasErrorsOfTheSlideThatDecreaseWithTheTolerance)
+{
+    const AccuracyRow loose = study_with_friction().measure({Method::taylor, 1e-8});
+    const AccuracyRow tight = study_with_friction().measure({Method::taylor, 1e-12});
+    for (const auto error : {&AccuracyRow::slide, &AccuracyRow::margin, &AccuracyRow::velocity}) {
+        // Four decades of tolerance; the largest error decreases by at least three.
+        EXPECT_LT((tight.*error)[4], 1e-3 * (loose.*error)[4]);
+        EXPECT_GT((tight.*error)[4], 0);
+    }
+    // The error that the tolerance allows in each of some twenty steps, amplified tenfold.
+    EXPECT_LT(tight.slide[4], 200 * 1e-12);
+}
+
+TEST(AccuracyStudyWithFriction, IsTheSameEachTime)
+{
+    const Numerics numerics{Method::taylor, 1e-9};
+    const AccuracyRow one = study_with_friction().measure(numerics);
+    const AccuracyRow other = made_with_friction().measure(numerics);
+    EXPECT_EQ(one.slide, other.slide);
+    EXPECT_EQ(one.margin, other.margin);
+    EXPECT_EQ(one.steps, other.steps);
+}
+
+TEST(AccuracyStudyWithFriction, HasTheSlideOf1em8AtLooserTolerances)
+{
+    const ErrorDistribution finest = study_with_friction().measure({Method::taylor, 1e-8}).slide;
+    for (const Method method : {Method::rk45, Method::taylor}) {
+        EXPECT_EQ(study_with_friction().measure({method, 1e-4}).slide, finest);
+    }
+}
+
+TEST(AccuracyStudyWithFriction, HasNoErrorAboveItsBoundAndNoWrongVerdict)
+{
+    for (const Numerics& numerics :
+         {Numerics{Method::rk45, 1e-9}, Numerics{Method::taylor, 1e-9}}) {
+        const AccuracyRow row = study_with_friction().measure(numerics);
+        EXPECT_EQ(row.bound_exceeded, 0) << numerics.tolerance;
+        EXPECT_EQ(row.wrong_verdicts, 0) << numerics.tolerance;
+        EXPECT_EQ(row.undecided, 0) << numerics.tolerance;
+    }
+}
+
+TEST(AccuracyStudyWithFriction, CountsByDistanceOnlyPointsThatHaveAMargin)
+{
+    const AccuracySample& sample = study_with_friction().sample();
+    const auto sum = [](const auto& counts) {
+        return std::accumulate(counts.begin(), counts.end(), std::int64_t(0));
+    };
+    EXPECT_EQ(sum(sample.by_region), sample.settled);
+    EXPECT_LT(sum(sample.by_distance), sample.settled); // the others slip at the end of the pulse
+    EXPECT_GT(sum(sample.by_distance), sample.settled / 2);
+}
+
 TEST(AccuracyLadder, HasEveryDecadeOfBothMethods)
 {
     int plain = 0;

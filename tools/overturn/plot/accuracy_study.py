@@ -15,13 +15,15 @@ example:
   tools/plot_accuracy accuracy.h5                # draws accuracy.png
 
 Left, work-precision curves: the error of the margin against time per point, one marker per
-tolerance. Right, the share of wrong verdicts; the lowest level means none."""
+tolerance; of blocks with friction, also that of the final slide over R. Right, the share of wrong
+verdicts; the lowest level means none."""
 
 METHODS = ("rk45", "taylor")  # as numbered in the file
 # Markers and dashes distinguish the methods in greyscale and for colour-blind readers.
 COLOURS = {"rk45": "#1b6ca8", "taylor": "#c8422b"}
 MARKERS = {"rk45": "o", "taylor": "s"}
 QUANTILE = 0.99
+ERRORS = {"margin_error": "error of the margin", "slide_error": "error of the slide"}
 
 
 class Curve:
@@ -38,7 +40,7 @@ class Curve:
 
         self.tolerance = column(file["tolerance"][:])
         self.time = column(file["seconds_per_point"][:]) * 1e6
-        self.error = column(file["margin_error"][:, quantile])
+        self.errors = {name: column(file[name][:, quantile]) for name in ERRORS if name in file}
         self.wrong = column(file["wrong_verdicts"][:]) / file.attrs["points_settled"]
 
     @property
@@ -59,35 +61,37 @@ def read_curves(file):
 
 
 def name_tolerances(axes, curve, values, upwards):
-    """Labels every third tolerance next to its marker."""
-    for tolerance, time, value in list(zip(curve.tolerance, curve.time, values))[::3]:
-        if np.isfinite(value) and value > 0:
+    """Labels every third tolerance next to its marker, of equal values the last one."""
+    named = list(zip(curve.tolerance, curve.time, values))[::3]
+    for (tolerance, time, value), following in zip(named, [*named[1:], (0, 0, 0)]):
+        if np.isfinite(value) and value > 0 and value != following[2]:
             axes.annotate(f"1e{round(np.log10(tolerance))}", (time, value),
                           (5, 5) if upwards else (-5, -6), textcoords="offset points",
                           ha="left" if upwards else "right", va="bottom" if upwards else "top",
                           fontsize=7.5, color=COLOURS[curve.method])
 
 
-def draw_order(axes, curve):
+def draw_order(axes, curve, errors):
     """Draws the slope of a method of order 5: five decades of error per decade of time."""
-    time, error = curve.time[-4], curve.error[-4]
+    time, error = curve.time[-4], errors[-4]
     span = np.array([time / 4, time])
     axes.plot(span * 1.25, error * (span / time)**-5.0, color="0.45", linewidth=1, linestyle=":",
               label="slope of order 5")
 
 
-def draw_errors(axes, curves):
+def draw_errors(axes, curves, name):
     for curve in curves:
-        shown = np.isfinite(curve.error) & (curve.error > 0)
-        axes.plot(curve.time[shown], curve.error[shown], **curve.style())
+        errors = curve.errors[name]
+        shown = np.isfinite(errors) & (errors > 0)
+        axes.plot(curve.time[shown], errors[shown], **curve.style())
         if not curve.resolve:
-            name_tolerances(axes, curve, curve.error, curve.method == "rk45")
+            name_tolerances(axes, curve, errors, curve.method == "rk45")
     for curve in curves:
-        if curve.method == "rk45" and not curve.resolve and len(curve.time) > 4:
-            draw_order(axes, curve)
+        # Blocks that slip are not integrated by rk45.
+        if curve.method == "rk45" and not curve.resolve and len(curve.time) > 4 and len(curve.errors) == 1:
+            draw_order(axes, curve, curve.errors[name])
     axes.set(xscale="log", yscale="log", xlabel="time per point on one core [µs]",
-             ylabel=f"error of the margin, {100 * QUANTILE:g}th percentile")
-    axes.set_title("What accuracy costs", fontsize=11)
+             ylabel=f"{ERRORS[name]}, {100 * QUANTILE:g}th percentile")
     axes.legend(frameon=False, fontsize=8.5)
 
 
@@ -116,10 +120,13 @@ def draw(file):
         raise ToolError(f"\"{file.filename}\" has no point whose verdict and end state are known: "
                         "there is no reference to compare with.")
     curves = read_curves(file)
-    figure, (left, right) = pyplot.subplots(1, 2, figsize=(11.5, 4.9))
-    draw_errors(left, curves)
-    draw_wrong_verdicts(right, curves, int(file.attrs["points_settled"]))
-    for axes in (left, right):
+    errors = curves[0].errors
+    figure, panels = pyplot.subplots(1, len(errors) + 1, figsize=(1.5 + 5 * (len(errors) + 1), 4.9))
+    for axes, name in zip(panels, errors):
+        draw_errors(axes, curves, name)
+    panels[0].set_title("What accuracy costs", fontsize=11)
+    draw_wrong_verdicts(panels[-1], curves, int(file.attrs["points_settled"]))
+    for axes in panels:
         axes.grid(color="#dddddd", linewidth=0.6)
         axes.set_axisbelow(True)
         for side in ("top", "right"):
