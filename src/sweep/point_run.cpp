@@ -251,19 +251,19 @@ PointRun::Slip PointRun::slip_of(int point, double frequency, const Numerics& nu
                   run(numerics.resolve ? tolerances_to_confirm[0]
                                        : std::min(numerics.tolerance, loosest_sliding_tolerance))};
     if (numerics.resolve || outputs.error) {
-        // The error is the difference from a run with a much smaller tolerance.
-        const SlidingEnd<double> better = run(tolerances_to_confirm[1]);
-        slip.is_settled = better.region == slip.end.region;
-        const auto margin_of = [&](const SlidingEnd<double>& end) {
-            return outcome_of(end, this->point(point).block, {}).margin;
+        // The error is the difference from a run without the roundings of double.
+        const auto most_exact = run(static_cast<long double>(tolerances_to_confirm[2]));
+        const auto margin_of = [&]<class T>(const SlidingEnd<T>& end) {
+            return outcome_of(end, block_in<T>(this->point(point).block), {}).margin;
         };
-        slip.error = slip.is_settled
-                         ? 2 * std::abs(margin_of(better) - margin_of(slip.end)) + 0x1p-50
-                         : infinity;
+        const double difference = std::abs(margin_of(most_exact) - margin_of(slip.end));
+        slip.is_settled = most_exact.region == slip.end.region;
+        slip.error =
+            slip.is_settled && std::isfinite(difference) ? 2 * difference + 0x1p-50 : infinity;
     }
     if (numerics.resolve) {
-        const auto most_exact = static_cast<long double>(tolerances_to_confirm[2]);
-        slip.is_settled = slip.is_settled && run(most_exact).region == slip.end.region;
+        slip.is_settled =
+            slip.is_settled && run(tolerances_to_confirm[1]).region == slip.end.region;
     }
     return slip;
 }

@@ -162,7 +162,9 @@ TEST(AccuracyStudyWithFriction, HasTheSlideOf1em8AtLooserTolerances)
 TEST(AccuracyStudyWithFriction, HasNoErrorAboveItsBoundAndNoWrongVerdict)
 {
     for (const Numerics& numerics :
-         {Numerics{Method::rk45, 1e-9}, Numerics{Method::taylor, 1e-9}}) {
+         {Numerics{Method::rk45, 1e-9}, Numerics{Method::taylor, 1e-9},
+          Numerics{Method::taylor, 1e-13}, Numerics{Method::taylor, 1e-14},
+          Numerics{Method::taylor, 1e-4, true}}) {
         const AccuracyRow row = study_with_friction().measure(numerics);
         EXPECT_EQ(row.bound_exceeded, 0) << numerics.tolerance;
         EXPECT_EQ(row.wrong_verdicts, 0) << numerics.tolerance;
