@@ -1,5 +1,8 @@
 #include "overturn/sweep/accuracy.hpp"
 
+#include "overturn/integrate/run_sliding.hpp"
+#include "overturn/mechanics/pulse_excitation.hpp"
+#include "overturn/number/digits50.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "support/given_values.hpp"
 
@@ -139,6 +142,34 @@ TEST(AccuracyStudyWithFriction, HasErrorsOfTheSlideThatDecreaseWithTheTolerance)
     }
     // The error that the tolerance allows in each of some twenty steps, amplified tenfold.
     EXPECT_LT(tight.slide[4], 200 * 1e-12);
+}
+
+/// The slide of a block that slips, rocks, and slips in the end.
+double difference_of_slides_in_50_digits(double tolerance, double other)
+{
+    const Digits50 alpha(0.3217506);
+    const Block<Digits50> block({alpha}, largest_restitution(alpha));
+    const auto pulse = pulse_excitation<Theory::nonlinear>(
+        pulse_motion<Digits50>(PulseKind::one_sine), block, Digits50(2.5), Digits50(6));
+    const auto slide = [&](double at) {
+        const auto end =
+            run_sliding<Digits50>(block, Digits50(0.57735), Digits50(0.4), pulse, Digits50(at));
+        EXPECT_TRUE(end.slipped);
+        EXPECT_GT(end.impacts, 0);
+        return end.slide;
+    };
+    return std::abs(double(slide(tolerance) - slide(other)));
+}
+
+TEST(AccuracyStudyWithFriction, HasAReferenceWhoseErrorIsFarBelowTheRoundingOfDouble)
+{
+    const double of_loose = difference_of_slides_in_50_digits(1e-20, 1e-28);
+    const double of_reference =
+        difference_of_slides_in_50_digits(sliding_tolerance_in_50_digits, 1e-28);
+    // Four decades of tolerance; the error decreases by at least two.
+    EXPECT_LT(of_reference, 1e-2 * of_loose);
+    EXPECT_GT(of_reference, 0);
+    EXPECT_LT(of_reference, 1e-20);
 }
 
 TEST(AccuracyStudyWithFriction, IsTheSameEachTime)

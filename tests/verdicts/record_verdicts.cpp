@@ -117,6 +117,7 @@ void check_verdicts(const PointRun& run, const Outcomes& truth, Counts& counts)
         const bool known = truth[i].error < std::abs(truth[i].margin);
         if (resolved[i].flags & status::unresolved) {
             ++counts.unresolved;
+            name_point("unresolved", run, i, resolved[i].margin, truth);
         } else if (known && is_safe(resolved[i].region) != (truth[i].margin > 0)) {
             ++counts.wrong;
             name_point("WRONG", run, i, resolved[i].margin, truth);
