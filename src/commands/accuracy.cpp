@@ -8,23 +8,23 @@
 #include "overturn/text/error.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 
 namespace overturn {
 
 namespace {
 
-/// Time of one pass over the sample, the median of several passes [s].
+/// Time of one pass over the sample, the median of several passes [s]: that of the processor, which
+/// other programs disturb least.
 double seconds_of(const AccuracyStudy& study, const Numerics& numerics)
 {
-    using Clock = std::chrono::steady_clock;
     std::vector<double> times;
     double all = 0;
     while (times.size() < 3 || (all < 0.2 && times.size() < 25)) {
-        const auto start = Clock::now();
+        const std::clock_t start = std::clock();
         study.compute_regions(numerics);
-        times.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+        times.push_back(double(std::clock() - start) / CLOCKS_PER_SEC);
         all += times.back();
     }
     std::sort(times.begin(), times.end());

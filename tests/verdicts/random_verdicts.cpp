@@ -29,6 +29,7 @@ struct BoundCheck {
     std::int64_t points = 0;
     std::int64_t exceeded = 0;
     std::int64_t unbounded = 0; ///< it is unknown whether an event has occurred
+    std::int64_t undecided = 0; ///< of all points
     std::vector<double> ratios;
 };
 
@@ -81,6 +82,7 @@ void check_bounds(BoundCheck& check, const Scene& scene, const Grid& grid, const
     const PointRun run = run_of(scene, grid, kernel);
     const Outcomes outcomes = outcomes_of(run, check.numerics, {.error = true, .margin = true});
     for (int point = 0; point < outcomes.size(); ++point) {
+        check.undecided += outcomes[point].has(outcome_flag::without_end);
         const bool known = std::isfinite(truth[point].margin) &&
                            std::isfinite(truth[point].error) &&
                            std::isfinite(outcomes[point].margin);
@@ -238,15 +240,16 @@ bool study(std::int64_t points, std::uint64_t seed)
             right = study_scene(scene, points, generator, checks) && right;
         }
     }
-    std::printf("\n%-7s %9s %10s  %14s %12s %18s\n", "method", "tolerance", "points",
-                "error > bound", "no bound", "median bound/error");
+    std::printf("\n%-7s %9s %10s  %14s %12s %18s %10s\n", "method", "tolerance", "points",
+                "error > bound", "no bound", "median bound/error", "undecided");
     for (BoundCheck& check : checks) {
         const auto all = double(check.points);
         const double overestimated = median(check.ratios);
-        std::printf("%-7s %9.0e %10lld  %14.1e %12.1e %18.1f\n",
+        std::printf("%-7s %9.0e %10lld  %14.1e %12.1e %18.1f %10lld\n",
                     std::string(name_of(check.numerics.method)).c_str(), check.numerics.tolerance,
                     static_cast<long long>(check.points), double(check.exceeded) / all,
-                    double(check.unbounded) / all, overestimated);
+                    double(check.unbounded) / all, overestimated,
+                    static_cast<long long>(check.undecided));
         right =
             right && are_few(check.exceeded, check.points) && overestimated <= most_overestimated;
     }

@@ -25,6 +25,7 @@ struct Counts {
     std::int64_t bounds = 0;       ///< finite ones that were compared
     std::int64_t exceeded = 0;
     std::int64_t unbounded = 0;
+    std::int64_t undecided = 0; ///< with one of the tolerances of the bounds
 };
 
 class RandomScenes {
@@ -130,6 +131,7 @@ void check_bounds(const PointRun& run, const Outcomes& truth, double tolerance, 
     const Outcomes found =
         outcomes_of(run, {Method::taylor, tolerance}, {.error = true, .margin = true});
     for (int i = 0; i < found.size(); ++i) {
+        counts.undecided += found[i].has(outcome_flag::without_end);
         if (!std::isfinite(truth[i].margin) || !std::isfinite(truth[i].error) ||
             !std::isfinite(found[i].margin)) {
             continue;
@@ -164,10 +166,11 @@ bool study(std::int64_t points, std::uint64_t seed)
     const auto number = [](std::int64_t count) { return static_cast<long long>(count); };
     std::printf(
         "seed %llu, records, resolved: %lld points, %lld wrong, %lld unresolved, %lld in 50 "
-        "digits\n%lld bounds of errors, %lld exceeded; %lld points without a bound\n",
+        "digits\n%lld bounds of errors, %lld exceeded; %lld points without a bound, %lld "
+        "undecided\n",
         static_cast<unsigned long long>(seed), number(counts.points), number(counts.wrong),
         number(counts.unresolved), number(counts.in_50_digits), number(counts.bounds),
-        number(counts.exceeded), number(counts.unbounded));
+        number(counts.exceeded), number(counts.unbounded), number(counts.undecided));
     return counts.wrong == 0 && are_few(counts.exceeded, counts.bounds);
 }
 
