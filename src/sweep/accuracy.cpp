@@ -16,9 +16,10 @@ void count(const Outcome& truth, auto& by_region, auto& by_distance)
 {
     ++by_region[std::size_t(truth.region)];
     if (!std::isnan(truth.margin)) {
-        const auto* const limit = std::upper_bound(
-            distance_limits.begin(), distance_limits.end() - 1, std::abs(truth.margin));
-        ++by_distance[std::size_t(limit - distance_limits.begin())];
+        const auto& limits = distance_limits; // without the last one
+        ++by_distance[std::size_t(
+            std::upper_bound(limits.begin(), limits.end() - 1, std::abs(truth.margin)) -
+            limits.begin())];
     }
 }
 

@@ -20,27 +20,36 @@ S polynomial_at(const std::array<S, count>& c, const S& t)
     return sum;
 }
 
-/// 1 / (k + 1).
+/// 1 / (k + 1). Functions, because a constant of 50 digits would be computed when the program
+/// starts.
 template <Number S, std::size_t count>
-inline const std::array<S, count> shares = [] {
-    std::array<S, count> all{};
-    for (std::size_t k = 0; k < count; ++k) {
-        all[k] = S(1) / S(int(k) + 1);
-    }
-    return all;
-}();
+const std::array<S, count>& shares()
+{
+    static const std::array<S, count> values = [] {
+        std::array<S, count> all{};
+        for (std::size_t k = 0; k < count; ++k) {
+            all[k] = S(1) / S(int(k) + 1);
+        }
+        return all;
+    }();
+    return values;
+}
 
 /// 1 / (degree over k).
 template <Number S, std::size_t count>
-inline const std::array<S, count> per_choices = [] {
-    std::array<S, count> all{};
-    S choices(1);
-    for (std::size_t k = 0; k < count; ++k) {
-        all[k] = 1 / choices;
-        choices = choices * S(int(count - 1 - k)) / S(int(k) + 1);
-    }
-    return all;
-}();
+const std::array<S, count>& per_choices()
+{
+    static const std::array<S, count> values = [] {
+        std::array<S, count> all{};
+        S choices(1);
+        for (std::size_t k = 0; k < count; ++k) {
+            all[k] = 1 / choices;
+            choices = choices * S(int(count - 1 - k)) / S(int(k) + 1);
+        }
+        return all;
+    }();
+    return values;
+}
 
 /// Its integral from 0 to t.
 template <Number S, std::size_t count>
@@ -49,7 +58,7 @@ S integral_of(const std::array<S, count>& c, const S& t)
 {
     S sum(0);
     for (std::size_t k = count - 1; k-- > 0;) {
-        sum = fma(sum, t, c[k] * shares<S, count>[k]);
+        sum = fma(sum, t, c[k] * shares<S, count>()[k]);
     }
     return sum * t;
 }
@@ -74,7 +83,7 @@ std::array<S, count> bernstein_of(const std::array<S, count>& c, const S& h)
     std::array<S, count> b;
     S power(1);
     for (std::size_t k = 0; k < count; ++k) {
-        b[k] = c[k] * power * per_choices<S, count>[k];
+        b[k] = c[k] * power * per_choices<S, count>()[k];
         power = power * h;
     }
     unrolled<int(count) - 1>([&]<int level>() {

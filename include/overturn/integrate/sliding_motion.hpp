@@ -195,8 +195,8 @@ private:
         Coeffs speed;
         speed[0] = direction_ * velocity_ * unit();
         for (std::size_t k = 0; k < std::size_t(order); ++k) {
-            speed[k + 1] = shares<S, order>[k] * (direction_ * field.along[k] +
-                                                  ground_.plus().friction * field.normal[k]);
+            speed[k + 1] = shares<S, order>()[k] * (direction_ * field.along[k] +
+                                                    ground_.plus().friction * field.normal[k]);
         }
         return speed;
     }
