@@ -129,6 +129,7 @@ def draw(file):
     for axes in panels:
         axes.grid(color="#dddddd", linewidth=0.6)
         axes.set_axisbelow(True)
+        axes.margins(x=0.1)  # for the names of tolerances
         for side in ("top", "right"):
             axes.spines[side].set_visible(False)
         name_ticks(axes.xaxis)
