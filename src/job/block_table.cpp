@@ -2,9 +2,9 @@
 
 #include "overturn/record/text_file.hpp"
 #include "overturn/text/is_one_of.hpp"
+#include "overturn/text/quoting.hpp"
 #include "overturn/text/utf8.hpp"
 
-#include <boost/algorithm/string/case_conv.hpp>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -65,7 +65,7 @@ void expect_free_name(const BlockTable& blocks, const std::string& name, const M
                                     other.name));
         }
     }
-    const Quantity* const meant = find_quantity(boost::algorithm::to_lower_copy(name));
+    const Quantity* const meant = find_quantity(lower(name));
     if (meant != nullptr && meant != same && meant->applies_under(motion)) {
         refuse_name(fmt::format(" is not the quantity {}, whose name is in lower case. Correct the "
                                 "name, or choose another one.",

@@ -3,14 +3,15 @@
 
 #include "overturn/record/read_record.hpp"
 #include "overturn/record/text_file.hpp"
+#include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
+#include "overturn/text/quoting.hpp"
 #include "overturn/text/utf8.hpp"
 
 #include <xxhash.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <initializer_list>
 #include <map>
@@ -222,13 +223,8 @@ std::size_t samples_of(const Components& components)
 /// Whether vertical components have such names: "UD", "Up", "HNZ".
 bool is_name_of_vertical(std::string_view name)
 {
-    constexpr std::array<std::string_view, 6> names{"ud", "up", "u", "z", "vert", "vertical"};
-    const auto is_name = [&](std::string_view each) {
-        return std::ranges::equal(each, name, {}, {},
-                                  [](unsigned char letter) { return char(std::tolower(letter)); });
-    };
     const bool is_channel_code = name.size() == 3 && name.ends_with('Z');
-    return is_channel_code || std::ranges::any_of(names, is_name);
+    return is_channel_code || is_one_of(lower(name), {"ud", "up", "u", "z", "vert", "vertical"});
 }
 
 /// Those of the files, on components of other events than that of the first one, on zeros that are

@@ -1,9 +1,5 @@
 #include "lines.hpp"
 
-#include <boost/algorithm/string/case_conv.hpp>
-
-#include <locale>
-
 namespace overturn {
 
 bool Lines::next()
@@ -70,11 +66,6 @@ std::vector<std::string> kept_lines(Lines lines, std::size_t last,
 std::string_view first_word(std::string_view text)
 {
     return trimmed(text).substr(0, trimmed(text).find_first_of(" \t"));
-}
-
-std::string lower(std::string_view text)
-{
-    return boost::algorithm::to_lower_copy(std::string(text), std::locale::classic());
 }
 
 bool contains(std::string_view text, std::string_view words)

@@ -94,9 +94,6 @@ std::vector<std::string> kept_lines(
 /// The text up to the first blank, without blanks before it.
 std::string_view first_word(std::string_view text);
 
-/// In lower case, if the letters are ASCII.
-std::string lower(std::string_view text);
-
 /// Whether the text contains the words, ignoring case.
 bool contains(std::string_view text, std::string_view words);
 

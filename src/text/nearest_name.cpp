@@ -1,9 +1,10 @@
 #include "overturn/text/nearest_name.hpp"
 
+#include "overturn/text/quoting.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -14,13 +15,9 @@ namespace overturn {
 namespace {
 
 /// The number of letters to insert, remove, replace or swap with their neighbour to turn one word
-/// into the other (optimal string alignment), ignoring case.
+/// into the other (optimal string alignment).
 std::size_t edit_distance(std::string_view from, std::string_view to)
 {
-    const auto equal = [&](std::size_t i, std::size_t j) {
-        return std::tolower(static_cast<unsigned char>(from[i])) ==
-               std::tolower(static_cast<unsigned char>(to[j]));
-    };
     // distance[i][j]: between the first i letters of `from` and the first j of `to`.
     std::vector<std::vector<std::size_t>> distance(from.size() + 1,
                                                    std::vector<std::size_t>(to.size() + 1));
@@ -30,23 +27,14 @@ std::size_t edit_distance(std::string_view from, std::string_view to)
                 distance[i][j] = i + j;
                 continue;
             }
-            distance[i][j] = std::min({distance[i - 1][j - 1] + (equal(i - 1, j - 1) ? 0 : 1),
+            distance[i][j] = std::min({distance[i - 1][j - 1] + (from[i - 1] == to[j - 1] ? 0 : 1),
                                        distance[i - 1][j] + 1, distance[i][j - 1] + 1});
-            if (i > 1 && j > 1 && equal(i - 1, j - 2) && equal(i - 2, j - 1)) {
+            if (i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1]) {
                 distance[i][j] = std::min(distance[i][j], distance[i - 2][j - 2] + 1);
             }
         }
     }
     return distance[from.size()][to.size()];
-}
-
-std::string lower_case(std::string_view word)
-{
-    std::string lower(word);
-    std::ranges::transform(lower, lower.begin(), [](unsigned char letter) {
-        return static_cast<char>(std::tolower(letter));
-    });
-    return lower;
 }
 
 /// Whether a word is part of a longer one: some of the words that underscores separate.
@@ -74,18 +62,18 @@ std::string_view nearest_name(std::string_view word, std::span<const std::string
         if (3 * (longer - shorter) > longer) {
             continue;
         }
-        const std::size_t distance = edit_distance(word, name);
+        const std::size_t distance = edit_distance(lower(word), lower(name));
         if (3 * distance <= longer && distance < least) {
             nearest = name;
             least = distance;
         }
     }
     const bool is_far = nearest.empty();
-    const std::string lower = word == "mu" ? "friction_coefficient" : lower_case(word);
+    const std::string meant = word == "mu" ? "friction_coefficient" : lower(word);
     least = std::numeric_limits<std::size_t>::max();
     for (auto name = names.begin(); is_far && name != names.end(); ++name) {
-        const auto [shorter, longer] = std::minmax({lower.size(), name->size()});
-        if ((is_part(lower, *name) || is_part(*name, lower) || is_beginning(*name, lower)) &&
+        const auto [shorter, longer] = std::minmax({meant.size(), name->size()});
+        if ((is_part(meant, *name) || is_part(*name, meant) || is_beginning(*name, meant)) &&
             longer - shorter < least) {
             nearest = *name;
             least = longer - shorter;

@@ -2,9 +2,11 @@
 
 #include "overturn/text/utf8.hpp"
 
+#include <boost/algorithm/string/case_conv.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <locale>
 
 namespace overturn {
 
@@ -66,6 +68,11 @@ std::string_view trimmed(std::string_view text)
     const std::size_t first = text.find_first_not_of(blanks);
     return first == text.npos ? std::string_view()
                               : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string lower(std::string_view text)
+{
+    return boost::algorithm::to_lower_copy(std::string(text), std::locale::classic());
 }
 
 std::string printable(std::string_view text)

@@ -30,6 +30,9 @@ std::string on_one_line(std::string text);
 /// The text without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 
+/// The text with ASCII letters in lower case.
+std::string lower(std::string_view text);
+
 /// Replaces each control character except newline, and each byte of invalid UTF-8, by a question
 /// mark. Job files and result files are untrusted, and could contain terminal escape sequences.
 std::string printable(std::string_view text);
