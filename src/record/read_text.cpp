@@ -4,7 +4,6 @@
 #include "stated_unit.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -15,23 +14,6 @@ namespace {
 
 // Thirty years: a larger value cannot be a time in a record, and might overflow.
 constexpr double largest_time = 1e9; // [s]
-
-/// The unit of the last printed digit: 0.001 for 1.250 and 10 for 1e1 [s].
-double printed_unit(std::string_view word)
-{
-    const std::size_t end = std::min(word.find_first_of("eEdD"), word.size());
-    const std::size_t point = std::min(word.find('.'), end);
-    const std::size_t decimals = point == end ? 0 : end - point - 1;
-    // Stays 0 if there is none, or if it is beyond int, which only the number 0 may have.
-    int exponent = 0;
-    if (end < word.size()) {
-        const std::string_view digits =
-            word.substr(word[end + 1] == '+' ? end + 2 : end + 1); // a number has digits here
-        std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
-    }
-    // 10^-400 is 0; a unit is not larger than the largest time.
-    return std::pow(10.0, std::clamp(double(exponent) - double(decimals), -400.0, 9.0));
-}
 
 /// The number in [low, high] with the fewest decimal digits; of several, the one nearest to `near`.
 double simplest_decimal(double low, double high, double near)
@@ -80,8 +62,8 @@ public:
                          word, last_);
         } else {
             // Rounding: of both times, of their difference, of its sum with the half unit.
-            const double half_unit =
-                printed_unit(word) / 2 + rounding * (std::abs(time) + std::abs(first_));
+            const double half_unit = std::min(rounding_of(word), largest_time / 2) +
+                                     rounding * (std::abs(time) + std::abs(first_));
             keep_longest(lines, time, half_unit);
             const double least = std::max(least_, (time - first_ - half_unit) / double(size_));
             const double most = std::min(most_, (time - first_ + half_unit) / double(size_));
