@@ -82,16 +82,19 @@ std::vector<StatedNumber> stated_numbers(const Lines& before)
     const Lines peak = ahead_by(before, 7), highest = ahead_by(before, 23),
                 lowest = ahead_by(before, 24);
     const std::size_t place = std::min(place_after(peak.line(), " pk "), peak.line().size());
-    const auto column = [](const Lines& lines, std::size_t index) {
-        return column_of(lines.line(), 15, index);
+    const auto real = [](Stated what, Peak of, const Lines& lines, std::size_t index,
+                         std::string_view name) {
+        StatedNumber stated{what, lines, name, column_of(lines.line(), 15, index)};
+        stated.peak = of;
+        return stated;
     };
     return {{Stated::peak, peak, "the peak", word_after(peak.line().substr(place), "=")},
-            {Stated::highest, highest, "real number 30, the maximum,", column(highest, 4)},
-            {Stated::lowest, lowest, "real number 32, the minimum,", column(lowest, 1)},
-            {Stated::time_of_highest, highest, "real number 29, the time of the maximum,",
-             column(highest, 3)},
-            {Stated::time_of_lowest, lowest, "real number 31, the time of the minimum,",
-             column(lowest, 0)}};
+            real(Stated::peak, Peak::highest, highest, 4, "real number 30, the maximum,"),
+            real(Stated::peak, Peak::lowest, lowest, 1, "real number 32, the minimum,"),
+            real(Stated::time_of_peak, Peak::highest, highest, 3,
+                 "real number 29, the time of the maximum,"),
+            real(Stated::time_of_peak, Peak::lowest, lowest, 0,
+                 "real number 31, the time of the minimum,")};
 }
 
 } // namespace

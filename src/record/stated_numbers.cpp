@@ -52,40 +52,31 @@ std::string name_of_unit(const std::optional<AccelerationUnit>& unit)
     return unit ? std::string(name_of(*unit)) : "counts";
 }
 
-bool is_time_of_peak(Stated what)
+double size_of(double acceleration, Peak peak)
 {
-    return what == Stated::time_of_peak || what == Stated::time_of_highest ||
-           what == Stated::time_of_lowest;
+    return peak == Peak::highest  ? acceleration
+           : peak == Peak::lowest ? -acceleration
+                                  : std::abs(acceleration);
 }
 
-/// Its size in the sense of the statement.
-double size_of(double acceleration, Stated what)
+/// The size of the samples without an offset.
+double peak_size(const Samples& samples, double offset, Peak peak)
 {
-    switch (what) {
-    case Stated::highest:
-    case Stated::time_of_highest: return acceleration;
-    case Stated::lowest:
-    case Stated::time_of_lowest: return -acceleration;
-    default: return std::abs(acceleration);
-    }
-}
-
-/// The size of the samples without an offset that a header states.
-double stated_size(const Samples& samples, double offset, Stated what)
-{
-    if (what == Stated::root_mean_square) {
-        const double peak = stated_size(samples, offset, Stated::peak);
-        double sum = 0; // of squares over that of the peak
-        for (const double value : samples.values) {
-            sum += peak > 0 ? std::pow((value - offset) / peak, 2) : 0;
-        }
-        return peak * std::sqrt(sum / double(samples.values.size()));
-    }
     double largest = -not_at_all;
     for (const double value : samples.values) {
-        largest = std::max(largest, size_of(value - offset, what));
+        largest = std::max(largest, size_of(value - offset, peak));
     }
     return largest;
+}
+
+double root_mean_square(const Samples& samples, double offset)
+{
+    const double peak = peak_size(samples, offset, Peak::absolute);
+    double sum = 0; // of squares over that of the peak
+    for (const double value : samples.values) {
+        sum += peak > 0 ? std::pow((value - offset) / peak, 2) : 0;
+    }
+    return peak * std::sqrt(sum / double(samples.values.size()));
 }
 
 /// What a stated peak may be without: nothing, or the mean of all samples.
@@ -105,17 +96,19 @@ std::vector<double> offsets_of(const Samples& samples)
 Difference from_peak(const StatedNumber& stated, double value, const Samples& samples)
 {
     const double factor = units_per_unit_of_samples(stated, samples);
-    const double size = size_of(value, stated.what);
+    const double size = size_of(value, stated.peak);
     Difference least{not_at_all, ""};
     for (const double offset : offsets_of(samples)) {
-        const double found = factor * stated_size(samples, offset, stated.what);
+        const double found =
+            factor * (stated.what == Stated::peak ? peak_size(samples, offset, stated.peak)
+                                                  : root_mean_square(samples, offset));
         const double difference = std::abs(size - found) - printed_rounding(stated, value);
         const double relative = difference <= 0 ? 0
                                 : found == 0    ? not_at_all
                                                 : difference / std::abs(found);
         if (relative < least.relative || least.found.empty()) {
             least = {relative,
-                     fmt::format("that of the samples is {:.6g} {}", size_of(found, stated.what),
+                     fmt::format("that of the samples is {:.6g} {}", size_of(found, stated.peak),
                                  name_of_unit(unit_of_peak(stated, samples)))};
         }
     }
@@ -128,9 +121,9 @@ Difference from_time_of_peak(const StatedNumber& stated, double time, const Samp
     const double allowed = 1.5 * samples.time_step + printed_rounding(stated, time);
     double last = 0; // time of the last peak
     for (const double offset : offsets_of(samples)) {
-        const double least = (1 - noticeable) * stated_size(samples, offset, stated.what);
+        const double least = (1 - noticeable) * peak_size(samples, offset, stated.peak);
         for (std::size_t i = 0; i < samples.values.size(); ++i) {
-            if (size_of(samples.values[i] - offset, stated.what) >= least) {
+            if (size_of(samples.values[i] - offset, stated.peak) >= least) {
                 last = stated.start + double(i) * samples.time_step;
                 if (std::abs(last - time) <= allowed) {
                     return {0, ""};
@@ -177,8 +170,6 @@ Difference difference_from(const StatedNumber& stated, double value, const Sampl
         return from_time_step(value, step, std::max(rounding, samples.rounding));
     case Stated::duration: return from_duration(stated, value, samples);
     case Stated::peak:
-    case Stated::highest:
-    case Stated::lowest:
     case Stated::root_mean_square: return from_peak(stated, value, samples);
     default: return from_time_of_peak(stated, value, samples);
     }
@@ -189,8 +180,6 @@ std::string name_of_unit(const StatedNumber& stated, const Samples& samples)
     switch (stated.what) {
     case Stated::count: return "";
     case Stated::peak:
-    case Stated::highest:
-    case Stated::lowest:
     case Stated::root_mean_square: return " " + name_of_unit(unit_of_peak(stated, samples));
     default: return " s";
     }
@@ -232,7 +221,7 @@ std::vector<std::string> compare(const std::vector<StatedNumber>& stated, const 
                                              name_of_unit(number, samples), difference.found);
         // The window of a mean, and the origin of a time, are not stated.
         const bool may_differ = number.what == Stated::root_mean_square ||
-                                (is_time_of_peak(number.what) && is_confirmed);
+                                (number.what == Stated::time_of_peak && is_confirmed);
         if (difference.relative > largest_allowed && !may_differ) {
             number.lines.refuse("{}. Give the file as it was published, or correct the wrong one.",
                                 text);
@@ -244,7 +233,7 @@ std::vector<std::string> compare(const std::vector<StatedNumber>& stated, const 
     };
     for (const bool are_times_of_peaks : {false, true}) {
         for (const StatedNumber& number : stated) {
-            if (is_time_of_peak(number.what) == are_times_of_peaks) {
+            if ((number.what == Stated::time_of_peak) == are_times_of_peaks) {
                 judge(number);
             }
         }

@@ -12,19 +12,18 @@
 
 namespace overturn {
 
-/// What a number is. The peak is the largest absolute acceleration; highest and lowest have signs.
+/// What a number is.
 enum class Stated {
     count,
     time_step,
     duration, ///< of all samples, or between the first and the last one
     peak,
-    highest,
-    lowest,
     root_mean_square,
-    time_of_peak, ///< after the first sample
-    time_of_highest,
-    time_of_lowest
+    time_of_peak ///< after the first sample
 };
+
+/// The largest absolute acceleration, or that of one sign.
+enum class Peak { absolute, highest, lowest };
 
 /// A number of a header, or what stands in its place.
 struct StatedNumber {
@@ -35,6 +34,7 @@ struct StatedNumber {
     std::optional<AccelerationUnit> unit = {}; ///< of a peak, if it is not that of the samples
     double least_rounding = 0;                 ///< of a number that is called approximate
     double start = 0; ///< time of the first sample, if that of a peak counts from another one [s]
+    Peak peak = Peak::absolute; ///< that is stated, or of which the time is
 };
 
 /// Samples as the file contains them.
