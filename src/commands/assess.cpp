@@ -5,8 +5,8 @@
 #include "report/progress.hpp"
 
 #include "overturn/answers/job_lines.hpp"
-#include "overturn/file/answer_table.hpp"
 #include "overturn/file/provenance.hpp"
+#include "overturn/file/text_outputs.hpp"
 #include "overturn/sweep/in_threads.hpp"
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/quoting.hpp"

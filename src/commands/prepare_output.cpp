@@ -5,8 +5,8 @@
 
 #include "overturn/farm/stop_signals.hpp"
 #include "overturn/file/history_and_accuracy_files.hpp"
-#include "overturn/file/provenance.hpp"
 #include "overturn/file/result_writer.hpp"
+#include "overturn/file/text_outputs.hpp"
 #include "overturn/text/error.hpp"
 #include "overturn/text/quoting.hpp"
 

@@ -1,7 +1,6 @@
 #include "overturn/file/provenance.hpp"
 
 #include "program_identity.hpp"
-#include "working_file.hpp"
 
 #include <fmt/format.h>
 #include <hdf5.h>
@@ -51,30 +50,6 @@ std::string_view program_version()
 std::string_view program_commit()
 {
     return identity::commit;
-}
-
-namespace {
-
-constexpr OwnText sidecar{
-    .kind = "the sidecar file of this run",
-    .is_own = [](std::string_view beginning) { return beginning.starts_with(sidecar_beginning); },
-    .option = "-o"};
-
-} // namespace
-
-void expect_place_for_sidecar(const std::string& spectrum_path)
-{
-    expect_place_for_text(spectrum_path + ".json", sidecar);
-}
-
-void write_sidecar(const std::string& spectrum_path, std::string_view text, Syncing syncing)
-{
-    write_text(
-        spectrum_path + ".json", sidecar, text,
-        fmt::format(" The computed tiles are in \"{0}\" nevertheless: overturn info {0} says "
-                    "whether some are missing.",
-                    spectrum_path),
-        syncing);
 }
 
 } // namespace overturn

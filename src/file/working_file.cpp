@@ -7,7 +7,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
-#include <fstream>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -144,42 +143,6 @@ void PartFile::move_into_place(Syncing syncing)
     namespace fs = std::filesystem;
     std::error_code ignored; // some file systems do not allow it
     fs::permissions(target_, fs::perms::sticky_bit, fs::perm_options::remove, ignored);
-}
-
-void expect_place_for_text(const std::string& path, const OwnText& own)
-{
-    const PartFile place(path);
-    std::error_code none;
-    if (!std::filesystem::exists(path, none)) {
-        return;
-    }
-    std::string beginning(1 << 16, '\0');
-    std::streamsize size = 0;
-    if (std::filesystem::is_regular_file(path)) { // opening a pipe would wait for its other end
-        std::ifstream stream(path, std::ios::binary);
-        size = stream.read(beginning.data(), std::streamsize(beginning.size())).gcount();
-    }
-    if (!own.is_own(std::string_view(beginning).substr(0, std::size_t(size)))) {
-        throw Error(exit_code::output,
-                    "\"{}\" exists but is not {}. Move it away, or choose another name with {}.",
-                    path, own.kind, own.option);
-    }
-}
-
-void write_text(const std::string& path, const OwnText& own, std::string_view text,
-                const std::string& consequence, Syncing syncing)
-{
-    expect_place_for_text(path, own); // a file may have appeared during the computation
-    PartFile part(path);
-    errno = 0;
-    std::ofstream stream(part.path(), std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) {
-        throw Error(exit_code::output, "cannot write \"{}\", {}: {}.{}", path, own.kind,
-                    system_reason(errno), consequence);
-    }
-    part.move_into_place(syncing);
 }
 
 } // namespace overturn

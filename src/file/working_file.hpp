@@ -3,7 +3,7 @@
 // Also syncing to the disk, and the messages of the operating system.
 #pragma once
 
-#include "overturn/file/provenance.hpp"
+#include "overturn/file/text_outputs.hpp"
 
 #include <cstdint>
 #include <string>
@@ -58,21 +58,5 @@ private:
     std::string part_;
     bool in_place_ = false;
 };
-
-/// A kind of text file that overturn writes, and replaces.
-struct OwnText {
-    std::string_view kind; ///< such as "a table of answers"
-    bool (*is_own)(std::string_view beginning);
-    std::string_view option; ///< that chooses the name
-};
-
-/// Throws Error if the text cannot be written: the folder is missing or not writable, or a file
-/// exists that is not of this kind. To be called before the computation.
-void expect_place_for_text(const std::string& path, const OwnText& own);
-
-/// Replaces an older file of this kind atomically. Throws Error; its message ends with
-/// `consequence`.
-void write_text(const std::string& path, const OwnText& own, std::string_view text,
-                const std::string& consequence = "", Syncing syncing = Syncing::yes);
 
 } // namespace overturn

@@ -3,6 +3,7 @@
 #include "support/scratch_folder.hpp"
 
 #include "overturn/file/provenance.hpp"
+#include "overturn/file/text_outputs.hpp"
 #include "overturn/text/error.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,7 @@
 #include "sidecar.hpp"
 
 #include "overturn/file/provenance.hpp"
+#include "overturn/file/text_outputs.hpp"
 
 #include <fmt/chrono.h>
 #include <nlohmann/json.hpp>
