@@ -135,25 +135,15 @@ struct OpenPart {
     const StoredResult& stored;
     Handle file;
 
-    /// Returns the result of `read`; converts its errors to an Error that names the file.
-    template <class Read>
-    auto or_refused(const Read& read) const
-    {
-        try {
-            return read();
-        } catch (const hdf5::Hdf5Error& error) {
-            refuse("\"{}\" cannot be read or is damaged: {}.", stored.path(), error.what());
-        }
-    }
-
     explicit OpenPart(const StoredResult& part)
-        : stored(part), file(or_refused([&] { return hdf5::open_to_read(part.path()); }))
+        : stored(part),
+          file(or_refused(part.path(), [&] { return hdf5::open_to_read(part.path()); }))
     {}
 
     template <class Value>
     std::vector<Value> of_run_group(const char* name) const
     {
-        return or_refused([&] {
+        return or_refused(stored.path(), [&] {
             return read_all<Value>(open_own_dataset(file, in_run_group(name)),
                                    stored.origin().bytes);
         });
@@ -161,7 +151,7 @@ struct OpenPart {
 
     StoredField field_like(const StoredField& merged) const
     {
-        return or_refused([&] {
+        return or_refused(stored.path(), [&] {
             return StoredField{merged.field,
                                open_own_dataset(file, std::string(name_of(merged.field))),
                                merged.crossing};
@@ -254,9 +244,9 @@ void merge_parts(const std::vector<StoredResult>& parts, const std::string& path
         return [&, fields, chunk = FieldValues()](const Tile& tile) mutable -> const FieldValues& {
             on_tile();
             const auto part = std::size_t(division.part_of(tile.number) - 1);
-            return chunk = open[part].or_refused([&] {
-                return read_chunk((*fields)[part], tile, tiles.tiling.tile_shape());
-            });
+            return chunk = or_refused(open[part].stored.path(), [&] {
+                       return read_chunk((*fields)[part], tile, tiles.tiling.tile_shape());
+                   });
         };
     };
     netcdf::create_in_place(path, [&](const std::string& temporary) {

@@ -3,13 +3,30 @@
 
 #include "hdf5_handles.hpp"
 
+#include "overturn/text/error.hpp"
+
 #include <cstdint>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace overturn {
+
+/// Returns the result of `read`; converts its errors to an Error that names the file.
+template <class Read>
+auto or_refused(const std::string& path, const Read& read)
+{
+    try {
+        return read();
+    } catch (const hdf5::Hdf5Error& error) {
+        throw Error(exit_code::output, "\"{}\" cannot be read or is damaged: {}.", path,
+                    error.what());
+    } catch (const std::bad_alloc&) {
+        throw Error(exit_code::output, "\"{}\" is damaged: it contains an impossible size.", path);
+    }
+}
 
 /// Throws Hdf5Error unless the condition holds.
 void require(bool condition, std::string_view what_is_wrong);

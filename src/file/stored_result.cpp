@@ -15,7 +15,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <new>
 #include <sstream>
 
 namespace overturn {
@@ -24,20 +23,6 @@ using hdf5::check;
 using hdf5::Handle;
 
 namespace {
-
-/// Returns the result of `read`; converts its errors to an Error that names the file.
-template <class Read>
-auto or_refused(const std::string& path, const Read& read)
-{
-    try {
-        return read();
-    } catch (const hdf5::Hdf5Error& error) {
-        throw Error(exit_code::output, "\"{}\" cannot be read or is damaged: {}.", path,
-                    error.what());
-    } catch (const std::bad_alloc&) {
-        throw Error(exit_code::output, "\"{}\" is damaged: it contains an impossible size.", path);
-    }
-}
 
 std::string read_text(hid_t file, const char* name, std::uint64_t bytes)
 {
