@@ -2,7 +2,7 @@
 
 #include "layout.hpp"
 
-#include "overturn/mechanics/rotated_measures.hpp"
+#include "overturn/mechanics/intensity_measures.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/text/mapped.hpp"
 

@@ -1,5 +1,7 @@
 #include "overturn/mechanics/accelerogram.hpp"
 
+#include "overturn/mechanics/intensity_measures.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,14 +28,10 @@ std::vector<double> suffix_maxima(const std::vector<double>& values, const Value
 Accelerogram::Accelerogram(std::vector<double> horizontal, std::vector<double> upwards,
                            double time_step, std::vector<double> second)
     : horizontal_(std::move(horizontal)), upwards_(std::move(upwards)), second_(std::move(second)),
-      time_step_(time_step),
+      time_step_(time_step), upwards_peak_(peak_of(upwards_)),
       later_peak_(suffix_maxima(horizontal_, [](double a) { return std::abs(a); })),
       later_fall_(suffix_maxima(upwards_, [](double v) { return -v; }))
-{
-    for (const double v : upwards_) {
-        upwards_peak_ = std::max(upwards_peak_, std::abs(v));
-    }
-}
+{}
 
 Accelerogram Accelerogram::of_pulse(std::vector<double> phases, std::vector<double> shape)
 {

@@ -1,5 +1,6 @@
 #include "overturn/problem/plausibility.hpp"
 
+#include "overturn/mechanics/intensity_measures.hpp"
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/problem/given.hpp"
 #include "overturn/text/is_one_of.hpp"
@@ -156,8 +157,7 @@ void judge_records(const Scene& scene, Findings& findings)
         for (const auto* component :
              {&record->horizontal(), &record->second(), &record->upwards()}) {
             if (!component->empty()) {
-                const auto [least, most] = std::ranges::minmax(*component);
-                peaks.push_back(std::max(-least, most));
+                peaks.push_back(peak_of(*component));
                 findings.push_back(finding_about_spikes(*component, record->time_step()));
             }
         }

@@ -1,5 +1,6 @@
 #include "overturn/problem/pulse_table.hpp"
 
+#include "overturn/mechanics/intensity_measures.hpp"
 #include "overturn/text/mapped.hpp"
 
 #include <fmt/format.h>
@@ -56,8 +57,7 @@ void expect_rows(const std::vector<double>& times, const std::vector<double>& va
 ScaledTable pulse_of_table(const std::vector<double>& times, const std::vector<double>& values)
 {
     expect_rows(times, values);
-    const auto by_size = [](double a, double b) { return std::abs(a) < std::abs(b); };
-    const double peak = std::abs(*std::ranges::max_element(values, by_size));
+    const double peak = peak_of(values);
     std::vector<double> phases =
         mapped(times, [&](double time) { return 2 * std::numbers::pi * (time - times.front()); });
     std::vector<double> shape = mapped(values, [&](double value) { return value / peak; });

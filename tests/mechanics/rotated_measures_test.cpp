@@ -1,6 +1,5 @@
 // Intensity measures of two components: closed forms of their dependence on the direction, and
 // RotD50 and RotD100.
-#include "overturn/mechanics/rotated_measures.hpp"
 
 #include "overturn/mechanics/intensity_measures.hpp"
 

@@ -80,7 +80,7 @@ public:
 private:
     std::vector<double> phases_, horizontal_, upwards_, second_;
     double time_step_;
-    double upwards_peak_ = 0;
+    double upwards_peak_;
     // Suffix maxima of |horizontal| and of -upwards.
     std::vector<double> later_peak_, later_fall_;
 };
