@@ -2,7 +2,6 @@
 
 #include "overturn/job/schema.hpp"
 #include "overturn/mechanics/block.hpp"
-#include "overturn/problem/given.hpp"
 #include "overturn/problem/plausibility.hpp"
 #include "overturn/text/is_one_of.hpp"
 #include "overturn/text/nearest_name.hpp"

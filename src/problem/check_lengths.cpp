@@ -1,5 +1,6 @@
 #include "check_lengths.hpp"
 
+#include "overturn/problem/given.hpp"
 #include "overturn/text/mapped.hpp"
 
 #include <fmt/format.h>
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <iterator>
 
 namespace overturn {
 
@@ -95,36 +95,29 @@ std::string question_of(const Lengths& lengths)
     return texts.empty() ? "." : fmt::format(": {}?", fmt::join(texts, ", "));
 }
 
-/// The given lengths, and the dimensions on which they depend.
-std::pair<std::vector<std::string_view>, std::vector<std::size_t>>
-given_lengths(const Coordinates& coordinates, const Grid& corners)
+std::vector<std::string_view> given_lengths(const Grid& corners)
 {
     std::vector<std::string_view> names;
-    std::vector<std::size_t> dimensions;
     for (const Quantity& quantity : all_quantities()) {
         if (quantity.role == Role::block && quantity.units == "m" &&
             corners.find(quantity.name) != nullptr) {
             names.push_back(quantity.name);
-            std::vector<std::size_t> all;
-            std::ranges::set_union(dimensions, coordinates.dimensions_of(quantity.name),
-                                   std::back_inserter(all));
-            dimensions = std::move(all);
         }
     }
-    return {names, dimensions};
+    return names;
 }
 
 } // namespace
 
-std::optional<WrongLength> length_not_in_metres(const Scene& scene, const Coordinates& coordinates,
-                                                const Grid& corners)
+void expect_metres(const Scene& scene, const Coordinates& coordinates, const Grid& corners)
 {
     constexpr double largest_gravity = 30; // [m/s2]
     const bool has_effect = corners.find("frequency") == nullptr;
-    const auto [names, dimensions] = given_lengths(coordinates, corners);
+    const std::vector<std::string_view> names = given_lengths(corners);
     if (!has_effect || scene.gravity > largest_gravity || names.empty()) {
-        return std::nullopt;
+        return;
     }
+    const std::vector<std::size_t> dimensions = coordinates.dimensions_of_any(names);
     for (const LengthLimit& limit : limits) {
         if (!coordinates.has(limit.coordinate)) {
             continue;
@@ -135,20 +128,18 @@ std::optional<WrongLength> length_not_in_metres(const Scene& scene, const Coordi
         if (beyond == values.end()) {
             continue;
         }
-        const auto place = std::size_t(beyond - values.begin());
-        Lengths lengths;
-        for (const std::string_view name : names) {
-            lengths.push_back({name, coordinates.along(dimensions, name)[place]});
-        }
+        const auto place = beyond - values.begin();
+        const Lengths lengths = mapped(names, [&](std::string_view name) {
+            return Length{name, coordinates.along(dimensions, name)[std::size_t(place)]};
+        });
         const auto cause = limit.cause.empty()
                                ? std::ranges::max_element(lengths, {}, &Length::value)
                                : std::ranges::find(lengths, limit.cause, &Length::name);
-        return WrongLength{cause->name, dimensions, place,
-                           fmt::format(" = {}: {}. Lengths are in metres{}", cause->value,
-                                       fmt::format(fmt::runtime(limit.message), *beyond),
-                                       question_of(in_metres(lengths, cause->name)))};
+        throw GivenError(corners.row_of_table(cause->name, dimensions, place), cause->name,
+                         fmt::format(" = {}: {}. Lengths are in metres{}", cause->value,
+                                     fmt::format(fmt::runtime(limit.message), *beyond),
+                                     question_of(in_metres(lengths, cause->name))));
     }
-    return std::nullopt;
 }
 
 } // namespace overturn

@@ -1,16 +1,11 @@
 #include "overturn/problem/coordinates.hpp"
 
 #include "overturn/mechanics/block.hpp"
-#include "overturn/mechanics/pulse_motion.hpp"
-#include "overturn/mechanics/sliding.hpp"
-#include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <limits>
+#include <set>
 #include <span>
 
 namespace overturn {
@@ -19,93 +14,6 @@ std::optional<double> r_max_of(double slenderness)
 {
     return slenderness < limit_of_r_max ? std::optional(largest_restitution(slenderness))
                                         : std::nullopt;
-}
-
-double uplift_threshold(Theory theory, double slenderness)
-{
-    return with_theory(theory, [&]<Theory known>() {
-        return Equations<known>::uplift_acceleration(BlockSide<double>{slenderness});
-    });
-}
-
-Record directed_record(const Scene& scene, const Point& point)
-{
-    const Record& record = scene.records()[std::size_t(point.record)];
-    return scene.has_two_components()
-               ? std::make_shared<const Accelerogram>(record->in_direction(point.direction))
-               : record;
-}
-
-double pga_of_unit(const Scene& scene, const Point& point)
-{
-    const double least = std::min(point.block.slenderness, point.block.other.slenderness);
-    return scene.is_under(Under::pulse) ? uplift_threshold(scene.theory, least)
-                                        : directed_record(scene, point)->peak();
-}
-
-double free_fall_amplitude(const Scene& scene, const Point& point)
-{
-    const auto records = scene.records();
-    return records.empty() ? std::numeric_limits<double>::infinity()
-                           : records[std::size_t(point.record)]->free_fall_scale();
-}
-
-namespace {
-
-/// The largest peak ground acceleration over g at which the motion of this point exceeds neither
-/// threshold. thresholds: of the ground acceleration over g that pushes to a side, for the block as
-/// it stands.
-double pga_at(UpliftThresholds thresholds, const Scene& scene, const Point& point)
-{
-    if (std::signbit(point.amplitude)) { // the mirrored motion
-        std::swap(thresholds.plus, thresholds.minus);
-    }
-    const Pulse* pulse = scene.pulse();
-    if (pulse == nullptr) {
-        const Record record = directed_record(scene, point);
-        return record->peak() * record->lifting_scale(thresholds);
-    }
-    // A positive ground acceleration pushes the block towards its side minus.
-    const LobeAmplitudes<double> lobes =
-        largest_lobes(pulse_motion<double>(pulse->kind, pulse->shape));
-    const auto lifting = [](double threshold, double lobe) {
-        return lobe > 0 ? threshold / lobe : std::numeric_limits<double>::infinity();
-    };
-    return std::min(lifting(thresholds.minus, lobes.positive),
-                    lifting(thresholds.plus, lobes.negative));
-}
-
-} // namespace
-
-double lifting_pga(const Scene& scene, const Point& point)
-{
-    const auto threshold = [&](const BlockSide<double>& side, const SlidingSide<double>& on) {
-        return on.friction > on.friction_to_lift()
-                   ? uplift_threshold(scene.theory, side.slenderness)
-                   : std::numeric_limits<double>::infinity();
-    };
-    const Block<double>& block = point.block;
-    const auto plus = sliding_side(block, point.gyration, point.friction);
-    if (scene.is_under(Under::pulse) && block.is_symmetric()) {
-        return threshold(block, plus);
-    }
-    return pga_at({threshold(block, plus), threshold(block.other, plus.turned())}, scene, point);
-}
-
-bool stays_flat(const Point& point)
-{
-    const auto plus = sliding_side(point.block, point.gyration, point.friction);
-    return point.friction <= std::min(plus.friction_to_lift(), plus.turned().friction_to_lift());
-}
-
-double moving_pga(const Scene& scene, const Point& point)
-{
-    const auto plus = sliding_side(point.block, point.gyration, point.friction);
-    const double moving =
-        pga_at({plus.acceleration_to_move(), plus.turned().acceleration_to_move()}, scene, point);
-    const double lifting = lifting_pga(scene, point); // differs by roundings if it lifts first
-    constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-    return moving > lifting * (1 - rounding) ? lifting : moving;
 }
 
 namespace {
@@ -186,15 +94,19 @@ std::vector<std::size_t> Coordinates::dimensions_of(std::string_view name) const
         const auto dimension = grid_.dimension_of(name);
         return dimension ? std::vector{*dimension} : std::vector<std::size_t>();
     }
-    std::vector<std::size_t> all;
-    for (const std::string_view other : derivation_of(name, scene_, grid_)->from) {
-        if (!other.empty()) {
-            std::vector<std::size_t> both;
-            std::ranges::set_union(all, dimensions_of(other), std::back_inserter(both));
-            all = std::move(both);
-        }
+    const auto& from = derivation_of(name, scene_, grid_)->from;
+    return dimensions_of_any({from.begin(), std::ranges::find(from, "")});
+}
+
+std::vector<std::size_t>
+Coordinates::dimensions_of_any(const std::vector<std::string_view>& names) const
+{
+    std::set<std::size_t> all;
+    for (const std::string_view name : names) {
+        const std::vector<std::size_t> own = dimensions_of(name);
+        all.insert(own.begin(), own.end());
     }
-    return all;
+    return {all.begin(), all.end()};
 }
 
 const CoordinateValues& Coordinates::of(std::string_view name) const
@@ -326,6 +238,26 @@ std::vector<Point> Coordinates::points() const
         make_symmetric(points);
     }
     return points;
+}
+
+std::vector<Extent> scales_of(const Scene& scene, const Grid& grid)
+{
+    if (!scene.is_under(Under::record)) {
+        return {};
+    }
+    const Grid corners = corners_of(grid);
+    const Coordinates coordinates(scene, corners);
+    // One of scale and pga is given, and the other varies along the dimensions of the strength and
+    // the motion.
+    const std::string_view derived = corners.find("pga") != nullptr ? "scale" : "pga";
+    const std::vector<std::size_t>& dimensions = coordinates.of(derived).dimensions;
+    const std::vector<double> scale = coordinates.along(dimensions, "scale");
+    const std::vector<double> motion = coordinates.along(dimensions, "motion");
+    std::vector<Extent> scales(scene.records().size());
+    for (std::size_t i = 0; i < scale.size(); ++i) {
+        scales[Scene::record_index(motion[i])].include(scale[i]);
+    }
+    return scales;
 }
 
 } // namespace overturn

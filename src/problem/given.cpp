@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace overturn {
 
@@ -134,20 +133,6 @@ struct Limit {
     bool applies = true;
 };
 
-/// The row of a table that gives this quantity at a place along these dimensions, or no_row.
-std::int64_t row_of(std::string_view quantity, std::int64_t place,
-                    const std::vector<std::size_t>& dimensions, const Grid& corners)
-{
-    if (!corners.has_table_column(quantity)) {
-        return GivenError::no_row;
-    }
-    const std::size_t table = *corners.dimension_of(quantity);
-    for (auto faster = dimensions.rbegin(); *faster != table; ++faster) {
-        place /= corners.dimensions[*faster].size();
-    }
-    return place % corners.dimensions[table].size();
-}
-
 /// Refuses the first corner beyond a limit.
 void expect_within(const Limit& limit, const Coordinates& coordinates, const Grid& corners)
 {
@@ -156,16 +141,15 @@ void expect_within(const Limit& limit, const Coordinates& coordinates, const Gri
     if (!limit.applies || cause == limit.causes.end() || !coordinates.has(limit.coordinate)) {
         return;
     }
-    std::vector<std::size_t> dimensions;
-    std::ranges::set_union(coordinates.dimensions_of(limit.coordinate),
-                           coordinates.dimensions_of(*cause), std::back_inserter(dimensions));
+    const std::vector<std::size_t> dimensions =
+        coordinates.dimensions_of_any({limit.coordinate, *cause});
     const std::vector<double> values = coordinates.along(dimensions, limit.coordinate);
     const auto beyond = std::ranges::find_if_not(values, limit.interval.contains);
     if (beyond == values.end()) {
         return;
     }
     const auto place = beyond - values.begin();
-    throw GivenError(row_of(*cause, place, dimensions, corners), *cause,
+    throw GivenError(corners.row_of_table(*cause, dimensions, place), *cause,
                      fmt::format(" = {}: {} = {} is outside {}. {}",
                                  coordinates.along(dimensions, *cause)[std::size_t(place)],
                                  limit.coordinate, *beyond, limit.interval.text, limit.advice));
@@ -226,17 +210,6 @@ void expect_limits(const Coordinates& coordinates, const Grid& corners)
         {"vertical_pga", quantity("pga").interval, {"pga", "scale"}, overflow}};
     for (const Limit& limit : limits) {
         expect_within(limit, coordinates, corners);
-    }
-}
-
-/// Refuses blocks whose lengths are in centimetres or millimetres: computed as those of a tower,
-/// hardly anything would topple them.
-void expect_metres(const Scene& scene, const Coordinates& coordinates, const Grid& corners)
-{
-    if (const auto wrong = length_not_in_metres(scene, coordinates, corners)) {
-        throw GivenError(
-            row_of(wrong->quantity, std::int64_t(wrong->place), wrong->dimensions, corners),
-            wrong->quantity, wrong->message);
     }
 }
 
@@ -347,43 +320,6 @@ Grid grid_of(const Scene& scene, std::vector<Given> given)
     });
     expect_valid(scene, grid);
     return grid;
-}
-
-Grid corners_of(const Grid& grid)
-{
-    Grid corners = grid;
-    for (Dimension& dimension : corners.dimensions) {
-        Column& column = dimension.columns.front();
-        if (dimension.name == table_dimension || dimension.name == "motion") {
-            continue;
-        }
-        // What follows from the shape of a block with two different sides is not monotonic.
-        constexpr std::int64_t most_of_shape = 17;
-        const std::int64_t most =
-            grid.has_two_sides() && column.quantity->role == Role::block ? most_of_shape : 2;
-        column.values = column.values.thinned(most);
-    }
-    return corners;
-}
-
-std::vector<Extent> scales_of(const Scene& scene, const Grid& grid)
-{
-    if (!scene.is_under(Under::record)) {
-        return {};
-    }
-    const Grid corners = corners_of(grid);
-    const Coordinates coordinates(scene, corners);
-    // One of scale and pga is given, and the other varies along the dimensions of the strength and
-    // the motion.
-    const std::string_view derived = corners.find("pga") != nullptr ? "scale" : "pga";
-    const std::vector<std::size_t>& dimensions = coordinates.of(derived).dimensions;
-    const std::vector<double> scale = coordinates.along(dimensions, "scale");
-    const std::vector<double> motion = coordinates.along(dimensions, "motion");
-    std::vector<Extent> scales(scene.records().size());
-    for (std::size_t i = 0; i < scale.size(); ++i) {
-        scales[Scene::record_index(motion[i])].include(scale[i]);
-    }
-    return scales;
 }
 
 } // namespace overturn

@@ -44,6 +44,19 @@ bool Grid::has_table_column(std::string_view name) const
     return dimension && dimensions[*dimension].name == table_dimension;
 }
 
+std::int64_t Grid::row_of_table(std::string_view name, const std::vector<std::size_t>& along,
+                                std::int64_t place) const
+{
+    if (!has_table_column(name)) {
+        return -1;
+    }
+    const std::size_t rows = *dimension_of(name);
+    for (auto faster = along.rbegin(); *faster != rows; ++faster) {
+        place /= dimensions[*faster].size();
+    }
+    return place % dimensions[rows].size();
+}
+
 const Column* Grid::find(std::string_view name) const
 {
     const auto dimension = dimension_of(name);
@@ -89,6 +102,23 @@ const Dimension* Grid::table() const
 {
     const auto found = std::ranges::find(dimensions, table_dimension, &Dimension::name);
     return found == dimensions.end() ? nullptr : &*found;
+}
+
+Grid corners_of(const Grid& grid)
+{
+    Grid corners = grid;
+    for (Dimension& dimension : corners.dimensions) {
+        Column& column = dimension.columns.front();
+        if (dimension.name == table_dimension || dimension.name == "motion") {
+            continue;
+        }
+        // What follows from the shape of a block with two different sides is not monotonic.
+        constexpr std::int64_t most_of_shape = 17;
+        const std::int64_t most =
+            grid.has_two_sides() && column.quantity->role == Role::block ? most_of_shape : 2;
+        column.values = column.values.thinned(most);
+    }
+    return corners;
 }
 
 } // namespace overturn

@@ -2,14 +2,12 @@
 
 #include "overturn/mechanics/intensity_measures.hpp"
 #include "overturn/problem/coordinates.hpp"
-#include "overturn/problem/given.hpp"
 #include "overturn/text/is_one_of.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -113,9 +111,7 @@ std::string finding_about_restitution(const Coordinates& coordinates, bool has_t
         return finding(extent_of(coordinates.of("restitution").values).last,
                        has_two_sides ? extent.last : extent.first);
     }
-    std::vector<std::size_t> both;
-    std::ranges::set_union(coordinates.dimensions_of("restitution"),
-                           coordinates.dimensions_of(shape), std::back_inserter(both));
+    const std::vector<std::size_t> both = coordinates.dimensions_of_any({"restitution", shape});
     const std::vector<double> r = coordinates.along(both, "restitution");
     const std::vector<double> values = coordinates.along(both, shape);
     std::string found;

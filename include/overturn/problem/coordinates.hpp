@@ -1,5 +1,4 @@
-// The coordinates of points, given or derived. The source is the only place where p follows from R,
-// r from r_max, alpha from b and h, and the amplitude from the peak ground acceleration.
+// The coordinates of points, given or derived, and the points that they describe.
 #pragma once
 
 #include "overturn/problem/grid.hpp"
@@ -20,31 +19,6 @@ inline constexpr double limit_of_r_max = 0.9553166181245093;
 
 /// r_max of a block of this slenderness [rad] (Eq. 17); nullopt if it does not exist.
 std::optional<double> r_max_of(double slenderness);
-
-/// The ground acceleration over g that lifts a block of this slenderness [rad] at rest [1].
-double uplift_threshold(Theory theory, double slenderness);
-
-/// The record of a point, in its direction.
-Record directed_record(const Scene& scene, const Point& point);
-
-/// The peak ground acceleration over g of a motion of the strength 1: the amplitude of a pulse that
-/// excites the block of this point, or the scale of its record.
-double pga_of_unit(const Scene& scene, const Point& point);
-
-/// The amplitude of a point from which on the vertical motion cancels gravity at some time;
-/// infinite without a vertical motion.
-double free_fall_amplitude(const Scene& scene, const Point& point);
-
-/// The largest peak ground acceleration over g at which the motion of this point does not lift its
-/// block at rest; infinite if none does.
-double lifting_pga(const Scene& scene, const Point& point);
-
-/// The same for a motion that does not move the block at rest: it neither lifts it nor makes it
-/// slide.
-double moving_pga(const Scene& scene, const Point& point);
-
-/// Whether the block slides before it could lift on either side, so that it never rocks.
-bool stays_flat(const Point& point);
 
 /// The values of a coordinate in a box of points. It may vary along some of the dimensions only.
 struct CoordinateValues {
@@ -67,6 +41,9 @@ public:
     /// The dimensions along which a coordinate varies, slowest first; has(name) must be true.
     std::vector<std::size_t> dimensions_of(std::string_view name) const;
 
+    /// Those along which at least one of some coordinates varies.
+    std::vector<std::size_t> dimensions_of_any(const std::vector<std::string_view>& names) const;
+
     /// The values of a coordinate; has(name) must be true. See derivations_of() for the names.
     const CoordinateValues& of(std::string_view name) const;
 
@@ -83,5 +60,8 @@ private:
     Shape begin_, count_;
     mutable std::map<std::string, CoordinateValues, std::less<>> known_;
 };
+
+/// The factors on each record [1]; infinity and 0 for one to which no point is subjected.
+std::vector<Extent> scales_of(const Scene& scene, const Grid& grid);
 
 } // namespace overturn

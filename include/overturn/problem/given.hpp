@@ -45,12 +45,4 @@ private:
 /// own. Under records, one quantity is the motion. Throws GivenError.
 Grid grid_of(const Scene& scene, std::vector<Given> given);
 
-/// The grid with only the first and the last value of every axis, but all motions and all rows of a
-/// table. All coordinates are monotonic functions of each quantity, so that their smallest and
-/// largest values are those of the grid.
-Grid corners_of(const Grid& grid);
-
-/// The factors on each record [1]; infinity and 0 for one to which no point is subjected.
-std::vector<Extent> scales_of(const Scene& scene, const Grid& grid);
-
 } // namespace overturn

@@ -54,6 +54,11 @@ struct Grid {
     /// Whether the table has a column of this name.
     bool has_table_column(std::string_view name) const;
 
+    /// The row of the table, from 0, that gives a quantity at a place along dimensions, one of
+    /// which is that of the table; -1 if it has no column of this name.
+    std::int64_t row_of_table(std::string_view name, const std::vector<std::size_t>& along,
+                              std::int64_t place) const;
+
     /// The coordinates that are not columns of the table, without the motion; the fastest first.
     std::vector<const Column*> outside_table() const;
 
@@ -66,5 +71,10 @@ struct Grid {
     /// The rows of a table; nullptr if there are none.
     const Dimension* table() const;
 };
+
+/// The grid with only the first and the last value of every axis, but all motions and all rows of a
+/// table. All coordinates are monotonic functions of each quantity, so that their smallest and
+/// largest values are those of the grid.
+Grid corners_of(const Grid& grid);
 
 } // namespace overturn

@@ -5,7 +5,6 @@
 #include "overturn/answers/job_lines.hpp"
 #include "overturn/mechanics/contact.hpp"
 #include "overturn/mechanics/theory/theories.hpp"
-#include "overturn/problem/given.hpp"
 #include "overturn/text/quoting.hpp"
 
 #include <fmt/format.h>
