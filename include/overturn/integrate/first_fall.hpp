@@ -8,18 +8,6 @@
 
 namespace overturn {
 
-/// The value of c[0] + c[1] t + c[2] t^2 + ...
-template <Number S, std::size_t count>
-    requires(lanes_v<S> == 1)
-S polynomial_at(const std::array<S, count>& c, const S& t)
-{
-    S sum = c[count - 1];
-    for (std::size_t k = count - 1; k-- > 0;) {
-        sum = fma(sum, t, c[k]);
-    }
-    return sum;
-}
-
 /// 1 / (k + 1). Functions, because a constant of 50 digits would be computed when the program
 /// starts.
 template <Number S, std::size_t count>
@@ -51,7 +39,7 @@ const std::array<S, count>& per_choices()
     return values;
 }
 
-/// Its integral from 0 to t.
+/// The integral of c[0] + c[1] t + c[2] t^2 + ... from 0 to t.
 template <Number S, std::size_t count>
     requires(lanes_v<S> == 1)
 S integral_of(const std::array<S, count>& c, const S& t)
@@ -63,7 +51,7 @@ S integral_of(const std::array<S, count>& c, const S& t)
     return sum * t;
 }
 
-/// Its derivative at t.
+/// The derivative of the same at t.
 template <Number S, std::size_t count>
     requires(lanes_v<S> == 1)
 S derivative_of(const std::array<S, count>& c, const S& t)

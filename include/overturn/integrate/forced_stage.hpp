@@ -23,7 +23,7 @@ inline constexpr double most_steps = 1 << 20;
 /// Selects Dormand-Prince 5(4), only for pulses.
 struct RungeKutta {
     template <Theory theory, Number T, Outputs outputs, class Excitation>
-        requires std::same_as<Excitation, PulseExcitation<T>>
+        requires(!Excitation::is_recorded)
     using Stepper = RungeKuttaStepper<theory, T, outputs>;
 };
 
@@ -31,9 +31,9 @@ struct RungeKutta {
 template <int order>
 struct Taylor {
     template <Theory theory, Number T, Outputs outputs, class Excitation>
-    using Stepper = std::conditional_t<std::same_as<Excitation, PulseExcitation<T>>,
-                                       TaylorStepper<order, theory, T, outputs>,
-                                       RecordStepper<order, theory, T, outputs, Excitation>>;
+    using Stepper = std::conditional_t<Excitation::is_recorded,
+                                       RecordStepper<order, theory, T, outputs, Excitation>,
+                                       TaylorStepper<order, theory, T, outputs>>;
 };
 
 /// Integrates one block per lane. Method: RungeKutta or Taylor<order>. Excitation: PulseExcitation
@@ -45,7 +45,6 @@ class ForcedStage {
     using S = scalar_t<T>;
     using E = estimate_t<T>;
     using Mask = mask_t<T>;
-    static constexpr bool is_recorded = !std::same_as<Excitation, PulseExcitation<T>>;
     static_assert(!outputs.contact || Equations<theory>::has_contact_forces);
 
 public:
@@ -240,24 +239,18 @@ private:
     {
         const Mask lanes = at_rest && first < last;
         const ContactSide<E>& side = contact_->sides().plus;
-        if constexpr (is_recorded) {
-            const auto observe = [&](const T& phase, const Mask& at) {
-                const auto push = estimate_of(excitation_.ground(phase));
-                contact_->pass_rest(demand_of(force_at_rest(side, push, push)), at);
-            };
+        const auto observe = [&](const T& phase, const Mask& at) {
+            const auto push = estimate_of(excitation_.ground(phase));
+            contact_->pass_rest(demand_of(force_at_rest(side, push, push)), at);
+        };
+        observe(last, lanes);
+        if constexpr (Excitation::is_recorded) {
             for (T phase = first; any<T>(lanes && phase < last);
                  phase = excitation_.motion.end_of_piece(phase)) {
                 observe(phase, lanes && phase < last);
             }
-            observe(last, lanes);
-        } else {
-            // Both are monotone functions of the push.
-            const auto observe = [&](const T& phase, const Mask& at) {
-                const T push = excitation_.ground(phase);
-                contact_->pass_rest(demand_of(force_at_rest(side, push, push)), at);
-            };
+        } else { // both are monotone functions of the push
             observe(first, lanes);
-            observe(last, lanes);
             for (const S& peak : excitation_.motion.peaks) {
                 const Mask within = lanes && first < T(peak) && T(peak) < last;
                 if (any<T>(within)) {
@@ -415,7 +408,7 @@ private:
     T rate_ratio_;             // of an impact on the side on which the block rocks
     T fastest_series_;
 
-    [[no_unique_address]] Observers<outputs, theory, T, is_recorded> observers_;
+    [[no_unique_address]] Observers<outputs, theory, T, Excitation::is_recorded> observers_;
     [[no_unique_address]] OnlyIf<outputs.contact, std::optional<ContactObserver<E>>> contact_;
     [[no_unique_address]] OnlyIf<outputs.contact, Mask> followed_; // see but_followed()
     UncertainImpact uncertain_impact_;

@@ -33,7 +33,7 @@ ForcedEnd<T> run_in_more_digits(const Block<T>& block, const Excitation& excitat
                                 double tolerance = MoreDigits<T>::tolerance,
                                 int step_limit = MoreDigits<T>::most_steps)
 {
-    constexpr bool is_recorded = !std::same_as<Excitation, PulseExcitation<T>>;
+    constexpr bool is_recorded = Excitation::is_recorded;
     constexpr int order = MoreDigits<T>::are_50 && !is_recorded ? 30 : 20;
     constexpr Outputs outputs{.impacts = true, .error = true, .peak = is_recorded};
     ForcedStage<Taylor<order>, theory, outputs, T, Excitation> stage(block, excitation,

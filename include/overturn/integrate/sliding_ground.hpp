@@ -77,7 +77,7 @@ public:
     {
         constexpr int terms = 4;
         S h = left;
-        if constexpr (!is_pulse) { // an interval of a record is mostly short enough
+        if constexpr (Excitation::is_recorded) { // an interval of a record is mostly short enough
             for (bool is_short = is_free(); !is_short;) {
                 S power(1);
                 for (int k = 0; k < last - terms; ++k) {
@@ -108,7 +108,7 @@ public:
                 h = lesser<S>(h, S(std::pow(double(allowed / size), 1.0 / k)));
             }
         }
-        if constexpr (is_pulse) {
+        if constexpr (!Excitation::is_recorded) {
             if (excitation_.motion.is_wavelet() && !is_free()) {
                 const S ratio = following_ratio<order>(excitation_.motion.pulse, phase_, per_unit_);
                 h = lesser<S>(h, S(0.75) / ratio);
@@ -152,14 +152,12 @@ public:
     }
 
 private:
-    static constexpr bool is_pulse = std::same_as<Excitation, PulseExcitation<S>>;
-
     /// The excitation whose uplifts are the phases at which a block at rest begins to move.
     Excitation with_thresholds(Excitation excitation) const
     {
         const S to_plus = plus_.acceleration_to_move();
         const S to_minus = minus_.acceleration_to_move();
-        if constexpr (is_pulse) {
+        if constexpr (!Excitation::is_recorded) {
             const S size = abs(excitation.acceleration);
             LobeAmplitudes<S> lobes{size / to_minus, size / to_plus};
             if (excitation.acceleration < 0) {

@@ -99,25 +99,25 @@ public:
         }
         const S side = mode_ == SlidingMode::slide ? S(1) : side_;
         const Field2<Coeffs> series = ground_.field_series(side);
-        const Field2<S> field{polynomial_at(series.along, t) / (unit() * unit()),
-                              polynomial_at(series.normal, t) / (unit() * unit())};
+        const Field2<S> field{polynomial(series.along, t) / (unit() * unit()),
+                              polynomial(series.normal, t) / (unit() * unit())};
         if (mode_ == SlidingMode::slide) {
             const Coeffs speed = speed_series(series);
             const S normal = -field.normal;
             return {{S(0), S(0), S(1)},
                     S(0),
-                    direction_ * polynomial_at(speed, t) / unit(),
+                    direction_ * polynomial(speed, t) / unit(),
                     base_position() + direction_ * integral_of(speed, t),
                     pressed(side, {-ground_.plus().friction * direction_ * normal, normal})};
         }
         const Series c = corner_series(series);
         const bool slips = mode_ == SlidingMode::slide_rock;
-        const S tilt = greater<S>(polynomial_at(c.tilt, t), S(0));
-        const S rate = polynomial_at(c.rate, t) / unit();
+        const S tilt = greater<S>(polynomial(c.tilt, t), S(0));
+        const S rate = polynomial(c.rate, t) / unit();
         const OnCorner<S> at = on_corner(here(), tilt);
         return {{tilt, rate, side_},
                 derivative_of(c.rate, t) / (unit() * unit()),
-                slips ? S(side_ * polynomial_at(c.slip, t) / unit()) : S(0),
+                slips ? S(side_ * polynomial(c.slip, t) / unit()) : S(0),
                 base_position() + (slips ? S(side_ * integral_of(c.slip, t)) : S(0)),
                 pressed(side_, slips ? force_of_slipping(here(), at, rate, direction_, field)
                                      : force_of_sticking(here(), at, rate, field))};
@@ -201,6 +201,14 @@ private:
         return speed;
     }
 
+    static Coeffs scaled(Coeffs series, const S& factor)
+    {
+        for (S& each : series) {
+            each = factor * each;
+        }
+        return series;
+    }
+
     Series corner_series(const Field2<Coeffs>& field) const
     {
         const SlidingState<S> state{tilt_, turning_, slip_ * unit()};
@@ -227,15 +235,12 @@ private:
         const S stop = first_fall(speed, h, noise);
         const bool stops = stop >= 0;
         S taken = stops ? stop : h;
-        Coeffs pressed = field.normal;
-        for (S& each : pressed) {
-            each = -each;
-        }
-        const S off = first_fall(pressed, taken, S(0)); // as a strong push may on an incline
+        const S off = // as a strong push may on an incline
+            first_fall(scaled(field.normal, S(-1)), taken, S(0));
         const bool leaves = off >= 0;
         taken = leaves ? off : taken;
         result_.slide = result_.slide + direction_ * integral_of(speed, taken);
-        velocity_ = direction_ * polynomial_at(speed, taken) / unit();
+        velocity_ = direction_ * polynomial(speed, taken) / unit();
         pass(taken, !stops && !leaves && h == left);
         if (leaves) {
             return leave_ground();
@@ -302,69 +307,29 @@ private:
         if (slips) {
             h = ground_.longest(h, c.slip, order, allowed_ * unit() * reach);
         }
-        const S epsilon(std::numeric_limits<S>::epsilon());
-        const S weight = here().gravity * unit() * unit();
-
-        // The first of these to fall below zero ends the step.
-        enum Event { none, impact, fall, sticks, slips_out, slips_in, off, jam };
-        Event event = none;
-        S when = h;
-        const auto watch = [&](Event kind, const auto& values, const S& noise) {
-            const S found = first_fall(values, when, noise);
-            if (found >= 0 && (event == none || found < when)) {
-                event = kind;
-                when = found;
-            }
-        };
-        watch(impact, c.tilt, S(8 * epsilon * least_ * h * h));
-        Coeffs room = c.tilt;
-        for (S& each : room) {
-            each = -each;
-        }
-        room[0] = pi<S>() / 2 - tilt_;
-        watch(fall, room, S(0));
-        if (slips) {
-            Coeffs speed = c.slip;
-            for (S& each : speed) {
-                each = direction_ * each;
-            }
-            watch(sticks, speed, S(8 * epsilon * weight * h));
-            watch(off, c.normal, S(0));
-            watch(jam, c.yield, S(0));
-        } else {
-            Coefficients<order - 1, S> outward;
-            Coefficients<order - 1, S> inward;
-            for (std::size_t k = 0; k < outward.size(); ++k) {
-                const S most = here().friction * c.normal[k];
-                outward[k] = most + c.along[k]; // the force is inward, and the slip outward
-                inward[k] = most - c.along[k];
-            }
-            const S noise = 16 * epsilon * weight;
-            watch(slips_out, outward, noise);
-            watch(slips_in, inward, noise);
-        }
+        const auto [event, when] = first_event(c, h);
         see_peak(c, when);
         if (slips) {
             result_.slide = result_.slide + side_ * integral_of(c.slip, when);
         }
-        tilt_ = greater<S>(polynomial_at(c.tilt, when), S(0));
-        turning_ = polynomial_at(c.rate, when);
-        slip_ = slips ? S(polynomial_at(c.slip, when) / unit()) : S(0);
+        tilt_ = greater<S>(polynomial(c.tilt, when), S(0));
+        turning_ = polynomial(c.rate, when);
+        slip_ = slips ? S(polynomial(c.slip, when) / unit()) : S(0);
         velocity_ = side_ * slip_;
         const bool was_free = is_free();
-        pass(when, event == none && when == left);
+        pass(when, event == Event::none && when == left);
         if (!(tilt_ - tilt_ + turning_ - turning_ == 0)) {
             result_.capped = true;
             return give_up();
         }
         if (!was_free && is_free()) {
-            if (event == fall) {
+            if (event == Event::fall) {
                 return fall_down();
             }
             end_forced_stage();
         }
         switch (event) {
-        case none:
+        case Event::none:
             if (is_free()) {
                 decide_by_energy();
                 if (!is_over_ && !was_free && !slips) {
@@ -372,24 +337,66 @@ private:
                 }
             }
             return;
-        case impact: return strike();
-        case fall: return fall_down();
-        case sticks: return stick_or_slip();
-        case slips_out: return begin_slip(S(1));
-        case slips_in: return begin_slip(S(-1));
-        case off: return leave_ground();
-        case jam: result_.jammed = true; return give_up();
+        case Event::impact: return strike();
+        case Event::fall: return fall_down();
+        case Event::sticks: return stick_or_slip();
+        case Event::slips_out: return begin_slip(S(1));
+        case Event::slips_in: return begin_slip(S(-1));
+        case Event::off: return leave_ground();
+        case Event::jam: result_.jammed = true; return give_up();
         }
+    }
+
+    enum class Event { none, impact, fall, sticks, slips_out, slips_in, off, jam };
+    struct EventInStep {
+        Event event;
+        S when; // in units; the end of the step if there is no event
+    };
+
+    /// The first event of a step of length h on one corner: of the functions that it watches, the
+    /// first one that falls below zero.
+    EventInStep first_event(const Series& c, const S& h) const
+    {
+        const S epsilon(std::numeric_limits<S>::epsilon());
+        const S weight = here().gravity * unit() * unit();
+        EventInStep first{Event::none, h};
+        const auto watch = [&](Event kind, const auto& values, const S& noise) {
+            const S found = first_fall(values, first.when, noise);
+            if (found >= 0 && (first.event == Event::none || found < first.when)) {
+                first = {kind, found};
+            }
+        };
+        watch(Event::impact, c.tilt, S(8 * epsilon * least_ * h * h));
+        Coeffs room = scaled(c.tilt, S(-1));
+        room[0] = pi<S>() / 2 - tilt_;
+        watch(Event::fall, room, S(0));
+        if (mode_ == SlidingMode::slide_rock) {
+            watch(Event::sticks, scaled(c.slip, direction_), S(8 * epsilon * weight * h));
+            watch(Event::off, c.normal, S(0));
+            watch(Event::jam, c.yield, S(0));
+            return first;
+        }
+        Coefficients<order - 1, S> outward;
+        Coefficients<order - 1, S> inward;
+        for (std::size_t k = 0; k < outward.size(); ++k) {
+            const S most = here().friction * c.normal[k];
+            outward[k] = most + c.along[k]; // the force is inward, and the slip outward
+            inward[k] = most - c.along[k];
+        }
+        const S noise = 16 * epsilon * weight;
+        watch(Event::slips_out, outward, noise);
+        watch(Event::slips_in, inward, noise);
+        return first;
     }
 
     void see_peak(const Series& c, const S& h)
     {
         const S scale = side_ > 0 ? S(1) : S(block_.slenderness / block_.other.slenderness);
-        S highest = polynomial_at(c.tilt, h);
+        S highest = polynomial(c.tilt, h);
         if (c.rate[0] > 0) {
             const S turn = first_fall(c.rate, h, S(0));
             if (turn >= 0) {
-                highest = greater<S>(highest, polynomial_at(c.tilt, turn));
+                highest = greater<S>(highest, polynomial(c.tilt, turn));
             }
         }
         result_.peak = greater<S>(result_.peak, scale * highest);
@@ -405,10 +412,8 @@ private:
         side_ = -side_;
         tilt_ = S(0);
         turning_ = after.rate * unit();
-        if (after.slip != 0 || after.stays_down) {
-            if (after.slip != 0) {
-                note_slip();
-            }
+        if (after.slip != 0) {
+            note_slip();
         }
         // A bounce this low ends within the tolerance.
         if (after.stays_down || turning_ <= allowed_ * unit() * S(0.1)) {

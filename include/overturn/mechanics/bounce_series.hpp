@@ -24,7 +24,7 @@ template <Number T>
 T fastest_bounce_series(const Block<T>& block, const auto& excitation)
 {
     using S = scalar_t<T>;
-    if constexpr (std::same_as<std::remove_cvref_t<decltype(excitation)>, PulseExcitation<T>>) {
+    if constexpr (!std::remove_cvref_t<decltype(excitation)>::is_recorded) {
         return T(std::numeric_limits<S>::infinity());
     } else {
         const T pull =

@@ -168,9 +168,6 @@ struct AntisymmetricRicker : RickerWavelet<AntisymmetricRicker> {
     }
 };
 
-template <class Pulse>
-inline constexpr bool is_wavelet = std::is_base_of_v<RickerWavelet<Pulse>, Pulse>;
-
 /// Calls `visit.template operator()<Pulse>()` for the formula of this kind of pulse, or
 /// visit_modulated() if it is a ModulatedSine.
 template <class Visitor, class ModulatedVisitor>

@@ -9,6 +9,8 @@ namespace overturn {
 
 template <Number T>
 struct PulseExcitation {
+    static constexpr bool is_recorded = false;
+
     PulseMotion<scalar_t<T>> motion;
     T acceleration;     ///< a_p / g [1]; negative: the mirrored pulse
     T frequency;        ///< omega_p over the p of the side, which is 1 for a symmetric block: then

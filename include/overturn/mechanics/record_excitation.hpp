@@ -125,6 +125,7 @@ enum class Directions { horizontal, both, both_recorded };
 template <Number T, Directions directions>
 struct RecordExcitation {
     using S = scalar_t<T>;
+    static constexpr bool is_recorded = true; // or a pulse that is integrated like a record
     static constexpr bool has_vertical = directions != Directions::horizontal;
     using Push = std::conditional_t<has_vertical, Ground<Ramp<T>>, Ramp<T>>;
 

@@ -36,8 +36,8 @@ inline constexpr auto inverse_factorials = [] {
 }();
 
 /// c[0] + c[1] t + c[2] t^2 + ... by Horner's rule.
-template <Number T, std::size_t N>
-T polynomial(const std::array<double, N>& c, const T& t)
+template <Number T, class Coefficient, std::size_t N>
+T polynomial(const std::array<Coefficient, N>& c, const T& t)
 {
     T sum(c[N - 1]);
     for (std::size_t i = N - 1; i-- > 0;) {
