@@ -13,8 +13,6 @@
 
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <limits>

@@ -98,8 +98,7 @@ std::string first_difference(std::string_view stored, std::string_view given)
     }
     return differing_line(stored, given, "this job") +
            "Undo the change of the job file, repeat the --set arguments of the first run, or "
-           "choose "
-           "another name with -o.";
+           "choose another name with -o.";
 }
 
 } // namespace overturn

@@ -2,7 +2,6 @@
 
 #include "read_steps.hpp"
 
-#include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/record/text_file.hpp"
 #include "overturn/text/is_one_of.hpp"
 #include "overturn/text/mapped.hpp"

@@ -1,7 +1,6 @@
 // The module overturn._core: the functions of the program's libraries that the Python package
 // calls. Shapes and optional arguments are handled in tools/overturn/evaluation.py and records.py.
 #include "overturn/mechanics/region.hpp"
-#include "overturn/mechanics/theory/theories.hpp"
 #include "overturn/problem/given.hpp"
 #include "overturn/problem/plausibility.hpp"
 #include "overturn/problem/pulse_table.hpp"

@@ -2,7 +2,6 @@
 // report is unknown.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 

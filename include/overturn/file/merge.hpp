@@ -3,7 +3,6 @@
 
 #include "overturn/file/stored_result.hpp"
 
-#include <functional>
 #include <string>
 #include <vector>
 

@@ -3,7 +3,6 @@
 
 #include "overturn/mechanics/block.hpp"
 #include "overturn/mechanics/region.hpp"
-#include "overturn/mechanics/theory/theories.hpp"
 
 #include <array>
 #include <limits>

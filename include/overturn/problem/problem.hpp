@@ -7,7 +7,6 @@
 #include "overturn/problem/scene.hpp"
 #include "overturn/problem/tile.hpp"
 
-#include <cstdint>
 #include <string>
 #include <vector>
 

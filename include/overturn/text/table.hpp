@@ -1,7 +1,6 @@
 // Reads tables of values that are separated by commas (RFC 4180), semicolons or tabs.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
