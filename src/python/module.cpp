@@ -60,57 +60,44 @@ double allowed(const char* name, double value)
     return value;
 }
 
-/// The motion of the scene is then one of the ground, or of a floor.
-Scene with_motion_of(Scene scene, const std::string& motion_of)
+/// numbers: those of its shape that are given, by name.
+Pulse pulse_named(const std::string& kind, const std::map<std::string, double>& numbers)
 {
-    scene.motion_of = choice_of<MotionOf>("motion_of", motion_of);
-    return scene;
-}
-
-/// A scene under a pulse; shape: the given numbers of the pulse by name.
-Scene scene_of_pulse(const std::string& pulse, const std::string& theory, double gravity,
-                     const std::map<std::string, double>& shape)
-{
-    Scene scene;
-    Pulse of_scene{choice_of<PulseKind>("pulse", pulse)};
-    scene.theory = choice_of<Theory>("theory", theory);
-    scene.gravity = allowed("gravity", gravity);
+    Pulse pulse{choice_of<PulseKind>("pulse", kind)};
     for (const auto& [name, number] : shape_numbers) {
-        const auto given = shape.find(std::string(name));
-        const auto value = given == shape.end() ? std::nullopt : std::optional(given->second);
-        const std::string refusal = refusal_of(of_scene.kind, number, value);
+        const auto given = numbers.find(std::string(name));
+        const auto value = given == numbers.end() ? std::nullopt : std::optional(given->second);
+        const std::string refusal = refusal_of(pulse.kind, number, value);
         if (!refusal.empty()) {
             throw std::invalid_argument(std::string(name) + refusal);
         }
-        of_scene.shape.*number = value.value_or(of_scene.shape.*number);
+        pulse.shape.*number = value.value_or(pulse.shape.*number);
     }
-    scene.motion = of_scene;
-    return scene;
+    return pulse;
 }
 
-/// A scene under a pulse that is given by a table; times: over the period. Throws GivenError.
-Scene scene_of_table(const Values& times, const Values& values, const std::string& theory,
-                     double gravity)
+/// times: over the period. Throws GivenError.
+TabulatedPulse pulse_of_rows(const Values& times, const Values& values)
 {
-    Scene scene;
-    scene.theory = choice_of<Theory>("theory", theory);
-    scene.gravity = allowed("gravity", gravity);
-    scene.motion = pulse_of_table(vector_of(times), vector_of(values)).pulse;
-    return scene;
+    return pulse_of_table(vector_of(times), vector_of(values)).pulse;
 }
 
-/// A scene under a record; horizontal, second and upwards: accelerations over g, finite, the latter
-/// two of the same number or empty.
-Scene scene_of_record(const Values& horizontal, const Values& second, const Values& upwards,
-                      double time_step, const std::string& theory, double gravity)
+/// horizontal, second and upwards: accelerations over g, finite, the latter two of the same number
+/// or empty.
+Suite record_of(const Values& horizontal, const Values& second, const Values& upwards,
+                double time_step)
 {
-    Scene scene;
-    scene.theory = choice_of<Theory>("theory", theory);
-    scene.gravity = allowed("gravity", gravity);
-    scene.motion = Suite{
+    return {
         {std::make_shared<const Accelerogram>(vector_of(horizontal), vector_of(upwards),
                                               allowed("time_step", time_step), vector_of(second))}};
-    return scene;
+}
+
+/// motion_of: what moves, the ground or a floor.
+Scene scene_of(const Motion& motion, const std::string& theory, double gravity,
+               const std::string& motion_of)
+{
+    return {motion, choice_of<Theory>("theory", theory), allowed("gravity", gravity),
+            choice_of<MotionOf>("motion_of", motion_of)};
 }
 
 /// tolerance: the default of job files if it is not given.
@@ -338,12 +325,15 @@ py::dict all_coordinates()
 
 PYBIND11_MODULE(_core, module)
 {
+    const py::class_<Pulse> pulse(module, "Pulse");
+    const py::class_<TabulatedPulse> tabulated_pulse(module, "TabulatedPulse");
+    const py::class_<Suite> suite(module, "Suite");
     const py::class_<Scene> scene(module, "Scene");
     const py::class_<Numerics> numerics(module, "Numerics");
-    module.def("scene_of_pulse", &scene_of_pulse);
-    module.def("scene_of_table", &scene_of_table);
-    module.def("scene_of_record", &scene_of_record);
-    module.def("with_motion_of", &with_motion_of);
+    module.def("pulse", &pulse_named);
+    module.def("pulse_of_rows", &pulse_of_rows);
+    module.def("record", &record_of);
+    module.def("scene", &scene_of);
     module.def("numerics", &numerics_of);
     module.def("evaluate", &evaluate);
     module.def("component_of", &component_of);

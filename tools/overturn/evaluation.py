@@ -93,11 +93,10 @@ def evaluate(*, fields=("region", "status", "peak", "margin"),
         columns |= of_pulse
         if pulse == "table" or (pulse is None and shape is not None):
             refuse(shape_numbers, "has no meaning for a shape")
-            scene = _scene_of_shape(shape, theory, single["gravity"])
+            motion = _pulse_of_shape(shape)
         else:
             refuse(given(shape=shape), "is for the pulse \"table\"")
-            scene = core.scene_of_pulse("one_sine" if pulse is None else pulse, theory, single["gravity"],
-                                        {name: single[name] for name in shape_numbers})
+            motion = core.pulse("one_sine" if pulse is None else pulse, {name: single[name] for name in shape_numbers})
     else:
         refuse({**given(pulse=pulse, shape=shape), **of_pulse, **shape_numbers}, "cannot be combined with record")
         motions = given(record=record, second_component=second_component, vertical=vertical)
@@ -107,23 +106,23 @@ def evaluate(*, fields=("region", "status", "peak", "margin"),
             raise ArgumentError("a record needs time_step, unless it is a Record, a FloorMotion or a Trace, and either "
                                 "scale or pga.")
         columns |= of_record
-        scene = core.scene_of_record(components["record"], components.get("second_component", []),
-                                     components.get("vertical", []), step, theory, single["gravity"])
+        motion = core.record(components["record"], components.get("second_component", []),
+                             components.get("vertical", []), step)
     if not isinstance(resolve, (bool, np.bool_)):
         raise ArgumentError(f"resolve = {resolve!r} is neither True nor False.")
-    scene = core.with_motion_of(scene, motion_of or "ground")
+    scene = core.scene(motion, theory, single["gravity"], motion_of or "ground")
     numerics = core.numerics(scene, method, single.get("tolerance"), bool(resolve))
     return _evaluated(scene, numerics, columns, list(fields))
 
 
-def _scene_of_shape(shape, theory, gravity):
+def _pulse_of_shape(shape):
     if shape is None:
         raise ArgumentError("the pulse \"table\" needs shape, an array of rows (time over the period, value).")
     rows = numbers("shape", shape)
     if rows.ndim != 2 or rows.shape[1] != 2:
         raise ValueError(f"shape has the shape {rows.shape}. Give rows (time over the period, value): (n, 2).")
     try:
-        return core.scene_of_table(rows[:, 0], rows[:, 1], theory, gravity)
+        return core.pulse_of_rows(rows[:, 0], rows[:, 1])
     except core.GivenError as error:
         row, column, message = error.args
         place = f"[{row}, {('time', 'value').index(column)}]" if column else ""
