@@ -263,8 +263,7 @@ TEST(Boundary, IsUndecidedOnlyWhereVerdictsCannotBeSettled)
 {
     // Without loss the block bounces half a million times under a slow pulse.
     const BoundaryLine line = line_of(0.17, 1, 0.02);
-    const Boundary boundary =
-        boundary_on({}, line, {0.9, 1.0001, 1.01, 1.5, 2}, widest_kernel());
+    const Boundary boundary = boundary_on({}, line, {0.9, 1.0001, 1.01, 1.5, 2}, widest_kernel());
     EXPECT_FALSE(boundary.complete);
     EXPECT_EQ(boundary.region_at_first, Region::S);
     ASSERT_GE(boundary.flips.size(), 2u);
