@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -69,12 +68,9 @@ std::string text_of(const VerdictInterval& interval, const std::vector<VerdictRa
                        first, decimals, last, decimals, unit);
 }
 
-/// In the order of the enumerators of Verdict.
-constexpr std::array<std::string_view, 3> verdict_texts{"does not topple", "topples", "undecided"};
-
 std::string_view text_of(Verdict verdict)
 {
-    return verdict_texts[std::size_t(verdict)];
+    return verdict == Verdict::safe ? "does not topple" : name_of(verdict);
 }
 
 /// The asked strength, in g or as a factor on the record.

@@ -43,6 +43,14 @@ Json toppling_intervals(const VerdictRanges& ranges)
     return list;
 }
 
+/// null if it is undecided, or not known.
+Json topples(const std::optional<Verdict>& verdict)
+{
+    return verdict.value_or(Verdict::undecided) == Verdict::undecided
+               ? Json()
+               : Json(verdict == Verdict::topples);
+}
+
 void add_coarse(Json& members, const VerdictRanges& ranges)
 {
     Json& coarse = members["coarse_search"];
@@ -104,9 +112,7 @@ void add(Json& members, const DirectedAnswer& directed, const std::string* verdi
     const auto pga = verdict != nullptr ? std::optional(answer.pga) : std::nullopt;
     members["direction"] = answer.direction;
     members["verdict"] = pga ? Json(*verdict) : Json();
-    members["topples"] = answer.verdict == Verdict::topples ? Json(true)
-                         : answer.verdict == Verdict::safe  ? Json(false)
-                                                            : Json();
+    members["topples"] = topples(answer.verdict);
     members["pga"] = if_known(pga);
     members["peak_of_alpha"] = pga ? Json(answer.peak) : Json();
     members["peak_degrees"] = pga && alpha ? Json(in_degrees(answer.peak * *alpha)) : Json();
@@ -122,10 +128,7 @@ void add(Json& members, const DirectedAnswer& directed, const std::string* verdi
         slip["moving_pga"] = answer.slip->moving_pga;
         slip["slide_over_size"] = pga ? Json(answer.slip->slide) : Json();
         slip["slide_peak_over_size"] = pga ? Json(answer.slip->slide_peak) : Json();
-        const auto& without = answer.slip->without;
-        slip["topples_without_slip"] = without == Verdict::topples ? Json(true)
-                                       : without == Verdict::safe  ? Json(false)
-                                                                   : Json();
+        slip["topples_without_slip"] = topples(answer.slip->without);
     }
     add(members, answer.requested(), pga);
     Json& others = members["by_restitution"] = is_searched ? Json::array() : Json();

@@ -208,15 +208,10 @@ double larger_of(double one, double two)
     return one < two || std::isnan(two) ? two : one;
 }
 
-int rank_of(Verdict verdict)
-{
-    return verdict == Verdict::topples ? 0 : verdict == Verdict::undecided ? 1 : 2;
-}
-
 /// Less for weaker ones.
 std::tuple<int, double> weakness(const ObjectCase& each)
 {
-    return {rank_of(each.verdict.value_or(Verdict::safe)),
+    return {-int(each.verdict.value_or(Verdict::safe)),
             lowest_not_safe(each.strengths.lowest, each.strengths.undecided)};
 }
 
@@ -239,9 +234,7 @@ void add_azimuth(ObjectCase& all, const ObjectCase& other)
     all.factor_above = std::min(all.factor_above, other.factor_above);
     all.slide = larger_of(all.slide, other.slide);
     if (all.verdict) {
-        all.verdict = std::min(*all.verdict, *other.verdict, [](Verdict one, Verdict two) {
-            return rank_of(one) < rank_of(two);
-        });
+        all.verdict = std::max(*all.verdict, *other.verdict);
         all.peak = all.verdict == Verdict::topples     ? infinity
                    : all.verdict == Verdict::undecided ? unknown
                                                        : std::max(all.peak, other.peak);
@@ -450,7 +443,7 @@ std::vector<ObjectAnswer> answers_of(const std::vector<ObjectCase>& cases)
         first = next;
     }
     const auto rank = [](const ObjectAnswer& answer) {
-        return std::tuple(rank_of(answer.verdict.value_or(Verdict::safe)),
+        return std::tuple(-int(answer.verdict.value_or(Verdict::safe)),
                           lowest_not_safe(answer.toppling_pga, answer.undecided_pga),
                           answer.moving_pga, answer.object);
     };

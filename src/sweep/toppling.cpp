@@ -153,9 +153,6 @@ std::tuple<int, double, double, double> rank_of(const ToppleAnswer& answer)
 {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const VerdictRanges& ranges = answer.requested().ranges;
-    const int of_verdict = answer.verdict == Verdict::topples     ? 0
-                           : answer.verdict == Verdict::undecided ? 1
-                                                                  : 2;
     double distance = infinity;
     if (answer.verdict) {
         const auto above = ranges.nearest_above(Verdict::topples, answer.pga);
@@ -164,7 +161,7 @@ std::tuple<int, double, double, double> rank_of(const ToppleAnswer& answer)
                             below ? answer.pga / *below : infinity);
     }
     const double least = ranges.nearest_above(Verdict::topples, 0).value_or(infinity);
-    return {of_verdict, distance, least, answer.lifting_pga};
+    return {-int(answer.verdict.value_or(Verdict::safe)), distance, least, answer.lifting_pga};
 }
 
 } // namespace

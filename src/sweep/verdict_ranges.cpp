@@ -173,8 +173,7 @@ VerdictRanges worst_of(const std::vector<VerdictRanges>& each)
         }
         Verdict verdict = Verdict::safe;
         for (const VerdictRanges& ranges : each) {
-            const Verdict its = ranges.verdict_at(std::midpoint(ends[i - 1], ends[i]));
-            verdict = verdict == Verdict::topples || its == Verdict::safe ? verdict : its;
+            verdict = std::max(verdict, ranges.verdict_at(std::midpoint(ends[i - 1], ends[i])));
         }
         if (worst.all.empty() || worst.all.back().verdict != verdict) {
             worst.all.push_back({ends[i - 1], ends[i], verdict});
@@ -202,15 +201,13 @@ double VerdictRanges::undecided_share() const
 
 Verdict VerdictRanges::verdict_at(double value) const
 {
-    for (const Verdict verdict : {Verdict::topples, Verdict::undecided}) {
-        const bool has_it = std::ranges::any_of(with(verdict), [&](const VerdictRange& range) {
-            return range.first <= value && value <= range.last;
-        });
-        if (has_it) {
-            return verdict;
+    Verdict worst = Verdict::safe;
+    for (const VerdictRange& range : all) {
+        if (range.first <= value && value <= range.last) {
+            worst = std::max(worst, range.verdict);
         }
     }
-    return Verdict::safe;
+    return worst;
 }
 
 std::optional<double> VerdictRanges::nearest_below(Verdict verdict, double value) const

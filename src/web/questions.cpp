@@ -243,13 +243,6 @@ std::string assess_answer(Members& members)
     return json_of(assessment_of(job_of(request), request, 1, nullptr), request, OVERTURN_VERSION);
 }
 
-std::string_view word_of(Verdict verdict)
-{
-    return verdict == Verdict::topples ? "topples"
-           : verdict == Verdict::safe  ? "safe"
-                                       : "undecided";
-}
-
 std::string history_answer(Members& members)
 {
     ToppleRequest request = topple_request(members);
@@ -267,7 +260,7 @@ std::string history_answer(Members& members)
     const auto seconds = [p](double time) { return if_finite(time / p); };
     Json answer;
     answer["direction"] = worst.answer.direction;
-    answer["verdict"] = worst.answer.verdict ? Json(word_of(*worst.answer.verdict)) : Json();
+    answer["verdict"] = worst.answer.verdict ? Json(name_of(*worst.answer.verdict)) : Json();
     answer["end_of_motion"] = seconds(history.end_of_pulse);
     answer["time_of_fall"] = seconds(history.time_of_fall);
     answer["time_of_rest"] = seconds(history.time_of_rest);

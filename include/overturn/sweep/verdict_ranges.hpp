@@ -3,8 +3,11 @@
 #pragma once
 
 #include "overturn/sweep/boundary.hpp"
+#include "overturn/text/names.hpp"
 
+#include <array>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace overturn {
@@ -12,7 +15,11 @@ namespace overturn {
 /// The largest step of the scan under a record, over the acceleration [1].
 inline constexpr double toppling_step = 0.005;
 
-enum class Verdict { safe, topples, undecided };
+/// From the best one to the worst.
+enum class Verdict { safe, undecided, topples };
+
+template <>
+inline constexpr std::array<std::string_view, 3> names_of<Verdict>{"safe", "undecided", "topples"};
 
 /// The verdict of the region of a block at rest after the motion.
 Verdict verdict_of(Region region);
