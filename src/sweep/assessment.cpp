@@ -4,7 +4,6 @@
 
 #include "overturn/problem/coordinates.hpp"
 #include "overturn/problem/given.hpp"
-#include "overturn/sweep/compute_tile.hpp"
 #include "overturn/sweep/in_threads.hpp"
 #include "overturn/sweep/toppling.hpp"
 
@@ -46,46 +45,15 @@ Shape place_of(std::int64_t point, const Shape& shape)
     return place;
 }
 
-/// At least this number of tiles, if there are as many points, each of successive points.
-Tiling contiguous_tiling(const Shape& shape, std::int64_t least)
-{
-    Shape tile = shape;
-    std::int64_t tiles = 1;
-    for (std::size_t i = 0; i < shape.size() && tiles < least; ++i) {
-        tiles *= shape[i];
-        tile[i] = 1;
-    }
-    return Tiling(shape, tile);
-}
-
 /// Sets the verdicts at the asked strength.
 /// sizes: R of each case [m].
 void judge(const Problem& problem, const std::vector<std::size_t>& points,
            const std::vector<double>& sizes, int threads, std::vector<ObjectCase>& cases)
 {
-    const auto values_of = [&](Field field) {
-        Problem accurate = problem;
-        accurate.numerics = most_accurate;
-        accurate.fields = {field};
-        const Tiling tiling = contiguous_tiling(problem.grid.shape(), std::int64_t(4) * threads);
-        std::vector<std::vector<double>> tiles(std::size_t(tiling.size()));
-        in_threads(
-            tiles.size(), threads,
-            [&](std::size_t i) {
-                const Tile tile = tiling[std::int64_t(i)];
-                tiles[i] = std::get<std::vector<double>>(
-                    compute_tile(accurate, tile, widest_kernel()).values[0]);
-            },
-            nullptr);
-        std::vector<double> values;
-        for (const std::vector<double>& tile : tiles) {
-            values.insert(values.end(), tile.begin(), tile.end());
-        }
-        return values;
-    };
-    const std::vector<double> peaks = values_of(Field::peak);
-    const std::vector<double> slides =
-        problem.grid.may_slip() ? values_of(Field::slide_peak) : std::vector<double>();
+    const std::vector<double> peaks = accurate_values(problem, Field::peak, threads);
+    const std::vector<double> slides = problem.grid.may_slip()
+                                           ? accurate_values(problem, Field::slide_peak, threads)
+                                           : std::vector<double>();
     for (std::size_t i = 0; i < cases.size(); ++i) {
         ObjectCase& each = cases[i];
         each.peak = peaks[points[i]];
@@ -487,26 +455,23 @@ std::optional<LeastWidths> least_widths_of(const Problem& problem,
     if (!is_possible(least.end)) {
         return std::nullopt;
     }
-    in_threads(
-        lines.size(), threads,
-        [&](std::size_t i) {
-            const auto safe_between = [&](double first, double last) {
-                return verdict_ranges(problem.scene, lines[i], first, last, nullptr)
-                    .safe_from()
-                    .value_or(last);
-            };
-            double from = safe_between(own, least.end);
-            while (from < least.end) { // some above may topple in ranges narrower than the steps
-                const double last = std::min(from * (1 + range_of_finer_search), least.end);
-                const double finer = safe_between(from, last);
-                if (!(finer > from)) {
-                    break;
-                }
-                from = finer;
+    in_threads(lines.size(), threads, [&](std::size_t i) {
+        const auto safe_between = [&](double first, double last) {
+            return verdict_ranges(problem.scene, lines[i], first, last, nullptr)
+                .safe_from()
+                .value_or(last);
+        };
+        double from = safe_between(own, least.end);
+        while (from < least.end) { // some above may topple in ranges narrower than the steps
+            const double last = std::min(from * (1 + range_of_finer_search), least.end);
+            const double finer = safe_between(from, last);
+            if (!(finer > from)) {
+                break;
             }
-            least.safe_from[i] = from < least.end ? from : infinity;
-        },
-        nullptr);
+            from = finer;
+        }
+        least.safe_from[i] = from < least.end ? from : infinity;
+    });
     std::ranges::sort(least.safe_from);
     return least;
 }

@@ -49,24 +49,21 @@ std::vector<double> friction_to_topple(const Scene& scene, const BoundaryLine& l
     const int most_in_50_digits = is_sensitive ? 0 : std::numeric_limits<int>::max();
     std::vector<double> friction(accelerations.size());
     constexpr std::size_t at_once = 32; // half of which may need more digits
-    in_threads(
-        (friction.size() + at_once - 1) / at_once, threads,
-        [&](std::size_t part) {
-            const std::size_t first = part * at_once;
-            std::vector<Point> points(std::min(at_once, friction.size() - first), line.point);
-            for (std::size_t i = 0; i < points.size(); ++i) {
-                points[i].amplitude = accelerations[first + i] / line.unit;
-            }
-            const PointRun run(scene, std::move(points), widest_kernel(), nullptr,
-                               line.point.block.is_symmetric());
-            const Outcomes outcomes =
-                outcomes_of(run, most_accurate, {.contact = true}, most_in_50_digits);
-            for (int i = 0; i < run.size(); ++i) {
-                const bool is_settled = is_decided(outcomes[i].region);
-                friction[first + std::size_t(i)] = is_settled ? outcomes[i].friction_demand : 0;
-            }
-        },
-        nullptr);
+    in_threads((friction.size() + at_once - 1) / at_once, threads, [&](std::size_t part) {
+        const std::size_t first = part * at_once;
+        std::vector<Point> points(std::min(at_once, friction.size() - first), line.point);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            points[i].amplitude = accelerations[first + i] / line.unit;
+        }
+        const PointRun run(scene, std::move(points), widest_kernel(), nullptr,
+                           line.point.block.is_symmetric());
+        const Outcomes outcomes =
+            outcomes_of(run, most_accurate, {.contact = true}, most_in_50_digits);
+        for (int i = 0; i < run.size(); ++i) {
+            const bool is_settled = is_decided(outcomes[i].region);
+            friction[first + std::size_t(i)] = is_settled ? outcomes[i].friction_demand : 0;
+        }
+    });
     std::vector<double> needed;
     double largest = 0; // NaN as soon as one is unknown
     for (std::size_t i = 0; i < accelerations.size(); ++i) {
@@ -124,19 +121,16 @@ std::vector<RestitutionAnswer> answers_by_restitution(const Problem& problem, co
         return false;
     };
     const double end = std::max(question.pga_max, answer.pga);
-    in_threads(
-        distinct.size(), question.threads,
-        [&](std::size_t number) {
-            const std::size_t i = distinct[number];
-            BoundaryLine line = line_of(point, answer.unit);
-            line.point.block.restitution = ratios[i];
-            if (question.searches) {
-                answers[i].ranges = verdict_ranges(problem.scene, line, answer.lifting_pga, end,
-                                                   answer.pga, show_progress);
-            }
-            ++done;
-        },
-        nullptr);
+    in_threads(distinct.size(), question.threads, [&](std::size_t number) {
+        const std::size_t i = distinct[number];
+        BoundaryLine line = line_of(point, answer.unit);
+        line.point.block.restitution = ratios[i];
+        if (question.searches) {
+            answers[i].ranges = verdict_ranges(problem.scene, line, answer.lifting_pga, end,
+                                               answer.pga, show_progress);
+        }
+        ++done;
+    });
     for (std::size_t i = 0; i < ratios.size(); ++i) {
         answers[i].share = r_max ? ratios[i] / *r_max : std::numeric_limits<double>::quiet_NaN();
         answers[i].ratio = ratios[i];
@@ -164,6 +158,18 @@ std::tuple<int, double, double, double> rank_of(const ToppleAnswer& answer)
     return {-int(answer.verdict.value_or(Verdict::safe)), distance, least, answer.lifting_pga};
 }
 
+/// At least this number of tiles, if there are as many points, each of successive points.
+Tiling contiguous_tiling(const Shape& shape, std::int64_t least)
+{
+    Shape tile = shape;
+    std::int64_t tiles = 1;
+    for (std::size_t i = 0; i < shape.size() && tiles < least; ++i) {
+        tile[i] = std::max<std::int64_t>(1, shape[i] * tiles / least);
+        tiles *= (shape[i] + tile[i] - 1) / tile[i];
+    }
+    return Tiling(shape, tile);
+}
+
 } // namespace
 
 Point only_point_of(const Problem& problem)
@@ -177,16 +183,21 @@ std::optional<double> only_slenderness_of(const Problem& problem)
                                         : std::optional(only_point_of(problem).block.slenderness);
 }
 
-std::vector<double> accurate_values(Problem problem, Field field)
+std::vector<double> accurate_values(Problem problem, Field field, int threads)
 {
     problem.numerics = most_accurate;
     problem.fields = {field};
-    const Tiling tiling = tiling_of(problem);
+    constexpr std::int64_t tiles_per_thread = 4; // whose durations differ
+    const Tiling tiling = contiguous_tiling(problem.grid.shape(), tiles_per_thread * threads);
+    std::vector<std::vector<double>> tiles(std::size_t(tiling.size()));
+    in_threads(tiles.size(), threads, [&](std::size_t i) {
+        const Tile tile = tiling[std::int64_t(i)];
+        tiles[i] =
+            std::get<std::vector<double>>(compute_tile(problem, tile, widest_kernel()).values[0]);
+    });
     std::vector<double> all;
-    for (std::int64_t tile = 0; tile < tiling.size(); ++tile) {
-        const TileFields fields = compute_tile(problem, tiling[tile], widest_kernel());
-        const auto& values = std::get<std::vector<double>>(fields.values[0]);
-        all.insert(all.end(), values.begin(), values.end());
+    for (const std::vector<double>& tile : tiles) {
+        all.insert(all.end(), tile.begin(), tile.end());
     }
     return all;
 }

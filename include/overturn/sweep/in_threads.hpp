@@ -15,6 +15,6 @@ std::function<bool()> is_this_thread();
 /// Calls work(i) for 0 <= i < count in several threads, and `progress` in this one. The first
 /// exception of a thread ends all, and is thrown again.
 void in_threads(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
-                const std::function<void(std::size_t done)>& progress);
+                const std::function<void(std::size_t done)>& progress = nullptr);
 
 } // namespace overturn

@@ -66,8 +66,8 @@ Point only_point_of(const Problem& problem);
 /// alpha of the block of that point [rad]; nullopt if it has two sides.
 std::optional<double> only_slenderness_of(const Problem& problem);
 
-/// The values of a field of type double at all points, tile by tile, as accurate as possible.
-std::vector<double> accurate_values(Problem problem, Field field);
+/// The values of a field of type double at all points, row by row, as accurate as possible.
+std::vector<double> accurate_values(Problem problem, Field field, int threads = 1);
 
 /// The verdict of a block with this value of the field `peak`.
 Verdict verdict_of_peak(double peak);
