@@ -121,12 +121,12 @@ std::string text_in(const TableColumn& column, std::size_t row)
 
 std::string outcome_word(const ObjectAnswer& answer)
 {
-    return !answer.verdict                    ? ""
-           : answer.verdict != Verdict::safe  ? std::string(name_of(*answer.verdict))
-           : answer.peak > 0 && answer.slides ? "rocks and slides"
-           : answer.peak > 0                  ? "rocks"
-           : answer.slides                    ? "slides"
-                                              : "stands";
+    return !answer.verdict                      ? ""
+           : answer.verdict != Verdict::safe    ? std::string(name_of(*answer.verdict))
+           : answer.peak > 0 && answer.slides() ? "rocks and slides"
+           : answer.peak > 0                    ? "rocks"
+           : answer.slides()                    ? "slides"
+                                                : "stands";
 }
 
 std::string note_on(const Job& job, const ObjectAnswer& answer)

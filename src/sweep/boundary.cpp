@@ -89,6 +89,15 @@ FlipScan without_free_fall(const Scene& scene, const BoundaryLine& where,
 
 } // namespace
 
+std::vector<Point> BoundaryLine::points(std::span<const double> strengths) const
+{
+    return mapped(strengths, [&](double strength) {
+        Point each = point;
+        each.amplitude = strength / unit;
+        return each;
+    });
+}
+
 std::vector<Point> QuantityLine::points(const Scene& scene, const std::vector<double>& values) const
 {
     Grid grid = others;
@@ -124,13 +133,7 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
     unit.amplitude = std::copysign(1.0, where.unit);
     const double lifting =
         lifting_pga(scene, unit) / pga_of_unit(scene, unit) * std::abs(where.unit);
-    const auto points = [&](const std::vector<double>& values) {
-        return mapped(values, [&](double strength) {
-            Point point = where.point;
-            point.amplitude = strength / where.unit;
-            return point;
-        });
-    };
+    const auto points = [&](const std::vector<double>& values) { return where.points(values); };
     const FlipSearch used =
         search.value_or(flip_search(scene, std::isfinite(where.point.friction)));
     const bool is_sensitive = scene.motion_traits().is_sensitive;

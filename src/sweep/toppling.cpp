@@ -51,12 +51,9 @@ std::vector<double> friction_to_topple(const Scene& scene, const BoundaryLine& l
     constexpr std::size_t at_once = 32; // half of which may need more digits
     in_threads((friction.size() + at_once - 1) / at_once, threads, [&](std::size_t part) {
         const std::size_t first = part * at_once;
-        std::vector<Point> points(std::min(at_once, friction.size() - first), line.point);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            points[i].amplitude = accelerations[first + i] / line.unit;
-        }
-        const PointRun run(scene, std::move(points), widest_kernel(), nullptr,
-                           line.point.block.is_symmetric());
+        const std::size_t count = std::min(at_once, friction.size() - first);
+        const PointRun run(scene, line.points({accelerations.data() + first, count}),
+                           widest_kernel(), nullptr, line.point.block.is_symmetric());
         const Outcomes outcomes =
             outcomes_of(run, most_accurate, {.contact = true}, most_in_50_digits);
         for (int i = 0; i < run.size(); ++i) {

@@ -14,52 +14,29 @@
 
 namespace overturn {
 
-/// The width to which the ends of toppling ranges are refined, over the acceleration [1].
-inline constexpr double width_of_lowest = 1e-4;
-
-/// The peak ground accelerations over g at which a block topples, as far as they were searched.
-struct TopplingStrengths {
-    std::optional<double> lowest{};
-    std::optional<double> undecided{}; ///< the lowest one below it that could not be settled
-    double end = 0;                    ///< of the search
-    // Of a block that does not topple at the asked strength, the nearest ones:
-    std::optional<double> below{};
-    std::optional<double> above{};
-};
-
-/// How the strengths of a line are searched.
-struct StrengthSearch {
-    double lifting;        ///< below it, the block is not lifted
-    double end;            ///< ends earlier if the vertical motion cancels gravity
-    double asked = 0;      ///< a further acceleration of the search; 0 if none is asked for
-    bool topples_at_asked; ///< the verdict there, if one is asked for
-    bool is_fine = false;  ///< as verdict_ranges(), instead of in steps of at most `toppling_step`
-};
-
-/// In steps, ranges that are narrower may be missed. The ends of ranges are refined: at most
-/// `width_of_lowest` away, the block does not topple.
-TopplingStrengths toppling_strengths(const Scene& scene, const BoundaryLine& line,
-                                     const StrengthSearch& search);
-
-/// An object under one motion in one direction.
+/// An object under one motion in one direction, or the worst of several such cases. Strengths are
+/// peak ground accelerations over g.
 struct ObjectCase {
-    std::int64_t object = 0; ///< its first row of the table, from 0
-    std::int64_t row = 0;    ///< the row that is computed; of several, the weakest one
-    Shape place;             ///< of this row, along the dimensions of the grid
-    Point point;             ///< with the asked strength, or 0
-    double pga = 0;          ///< the asked peak ground acceleration over g
-    double lifting_pga = 0;  ///< see lifting_pga()
-    double moving_pga = 0;
-    TopplingStrengths strengths{};
+    std::int64_t object;    ///< its first row of the table, from 0
+    std::int64_t row;       ///< the row that is computed; of several, the weakest one
+    Shape place;            ///< of this row in the worst case, along the dimensions of the grid
+    double lifting_pga = 0; ///< see lifting_pga(); infinite if none lifts it
+    double moving_pga = 0;  ///< from which on it lifts or slides
+    std::optional<double> toppling_pga{};  ///< the lowest one that topples it
+    std::optional<double> undecided_pga{}; ///< the lowest one below it that could not be settled
+    double end_of_search = 0;
 
     // If a strength is asked for:
     std::optional<Verdict> verdict{};
-    double peak = 0;  ///< |theta| / alpha; infinite if it topples, NaN if undecided
-    double slide = 0; ///< the largest distance [m]; NaN if it is not known
-    // The factors on the strength, the nearest ones to 1, at which it topples; 0 and infinite if
-    // none was found. Of a block that does not topple.
+    double pga = 0; ///< the asked one
+    /// The factors on the strength, the nearest ones to 1, at which an object topples that stands
+    /// at the asked one; 0 and infinite if none was found.
     double factor_below = 0;
     double factor_above = std::numeric_limits<double>::infinity();
+    double peak = 0;  ///< |theta| / alpha; infinite if it topples, NaN if undecided
+    double slide = 0; ///< the largest distance [m]; NaN if it is not known
+
+    bool slides() const { return slide != 0; }
 };
 
 /// What a row of the table is a part of.
@@ -72,7 +49,7 @@ struct PartOfObject {
 struct AssessmentQuestion {
     bool has_strength;    ///< whether the strength of the points is asked for
     double pga_max;       ///< the end of the search, unless the strength is larger [1]
-    bool is_fine = false; ///< see StrengthSearch
+    bool is_fine = false; ///< whether strengths are searched as by verdict_ranges()
     /// Of each row; empty: each is an object. The rows of one object are its azimuths: under a
     /// motion, it topples if it topples in one of them. Samples are different cases.
     std::span<const PartOfObject> parts{};
@@ -86,35 +63,15 @@ struct AssessmentQuestion {
 /// The verdicts are those of answer_of().
 std::vector<ObjectCase> cases_of(const Problem& problem, const AssessmentQuestion& question);
 
-/// What is known of an object under all its motions, in all their directions. Strengths are peak
-/// ground accelerations over g.
-struct ObjectAnswer {
-    std::int64_t object;                 ///< its first row of the table, from 0
-    std::int64_t row;                    ///< the weakest one, in the worst case
-    Shape place;                         ///< of the worst case, along the dimensions of the grid
-    double lifting_pga;                  ///< the lowest one; infinite if none lifts it
-    double moving_pga;                   ///< from which on it lifts or slides
-    std::optional<double> toppling_pga;  ///< the lowest one that topples it
-    std::optional<double> undecided_pga; ///< the lowest one below it that could not be settled
-    double end_of_search;                ///< the lowest one
+/// What is known of an object under all its motions, in all their directions.
+struct ObjectAnswer : ObjectCase {
     /// From which on 50 % and 16 % of the motions topple it, or may: order statistics of the lowest
     /// strengths that are not safe. nullopt if that is above the search.
-    std::optional<double> median;
-    std::optional<double> percentile_16;
-
-    // If a strength is asked for:
-    std::optional<Verdict> verdict; ///< the worst one
-    double pga = 0;                 ///< the largest one
-    /// The factors on the strength, the nearest ones to 1, with which a case topples it that does
-    /// not topple it at the asked strength; 0 and infinite if none was found.
-    double factor_below = 0;
-    double factor_above = std::numeric_limits<double>::infinity();
-    std::int64_t toppling = 0; ///< number of cases that topple
+    std::optional<double> median{};
+    std::optional<double> percentile_16{};
+    std::int64_t toppling = 0; ///< number of cases that topple at the asked strength
     std::int64_t undecided = 0;
     std::int64_t cases = 0;
-    double peak = 0;  ///< the largest |theta| / alpha; infinite if it topples, NaN if undecided
-    double slide = 0; ///< the largest distance [m]; NaN if it is not known
-    bool slides = false;
 };
 
 /// The answers for all objects, the most vulnerable first: those that topple, that may topple, and

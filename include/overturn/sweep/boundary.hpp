@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace overturn {
@@ -62,6 +63,9 @@ inline FlipSearch flip_search(const Scene& scene, bool may_slip = false)
 struct BoundaryLine {
     Point point;     ///< its amplitude is not used
     double unit = 1; ///< the strength at the amplitude 1; negative: the mirrored motion
+
+    /// The points at these strengths.
+    std::vector<Point> points(std::span<const double> strengths) const;
 };
 
 /// The points of a problem that differ in one quantity of the block or of its loss at impacts.

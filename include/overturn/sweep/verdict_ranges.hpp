@@ -15,6 +15,9 @@ namespace overturn {
 /// The largest step of the scan under a record, over the acceleration [1].
 inline constexpr double toppling_step = 0.005;
 
+/// The width to which the ends of toppling ranges are refined, over the acceleration [1].
+inline constexpr double width_of_lowest = 1e-4;
+
 /// From the best one to the worst.
 enum class Verdict { safe, undecided, topples };
 

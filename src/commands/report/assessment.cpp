@@ -44,7 +44,8 @@ std::vector<PrintedColumn> printed_columns(const Job& job, const std::vector<Obj
         columns.push_back({std::move(format), heading, cell});
     };
     // Columns that differ in the strength that they show.
-    const auto add_strength = [&](std::string_view heading, auto ObjectAnswer::*pga) {
+    const auto add_strength = [&](std::string_view heading,
+                                  std::optional<double> ObjectAnswer::*pga) {
         add("{:>15}", heading, [pga](const ObjectAnswer& answer) {
             return strength_text(answer.*pga, answer.end_of_search) + " g";
         });
