@@ -61,15 +61,8 @@ std::string job_text(const AssessRequest& request)
     expect_different_names(table, request.objects);
     const auto has = [&](const char* name) { return table.find(name) != nullptr; };
     const bool is_recorded = !request.records.empty();
-    std::string text = "[scene]\n";
-    text += is_recorded ? fmt::format("record = [{}]\n",
-                                      fmt::join(mapped(request.records, quoted_utf8), ", "))
-                        : pulse_lines(request.pulse, request.shape);
-    text += component_line(request.component);
-    text += fmt::format("[blocks]\ntable = {}\n[plane]\n", quoted_utf8(request.objects));
-    text += request.scale || (is_recorded && !request.pga)
-                ? fmt::format("scale = {}\n", request.scale.value_or(0))
-                : fmt::format("pga = {}\n", request.pga.value_or(0));
+    const auto records = fmt::format("[{}]", fmt::join(mapped(request.records, quoted_utf8), ", "));
+    std::string text = motion_lines(request, is_recorded ? records : "");
     if (!is_recorded) {
         text +=
             fmt::format("pulse_period = {{ values = [{}] }}\n", fmt::join(request.periods, ", "));
@@ -83,7 +76,7 @@ std::string job_text(const AssessRequest& request)
             fmt::format("direction = {{ values = [{}] }}\n",
                         fmt::join(request.directions.empty() ? both : request.directions, ", "));
     }
-    return text;
+    return text + fmt::format("[blocks]\ntable = {}\n", quoted_utf8(request.objects));
 }
 
 /// What each row is a part of; empty if each is an object.
@@ -122,7 +115,7 @@ Assessment assessment_of(Job job, const AssessRequest& request, int threads,
                          const std::function<void(std::size_t done, std::size_t all)>& progress)
 {
     const std::vector<PartOfObject> parts = parts_of_objects(job.blocks->table, request.objects);
-    const AssessmentQuestion question{.has_strength = request.pga || request.scale,
+    const AssessmentQuestion question{.has_strength = request.has_strength(),
                                       .pga_max = request.pga_max,
                                       .is_fine = request.fine,
                                       .parts = parts,

@@ -1,6 +1,7 @@
 // Parts of the text of a job that commands make from their options.
 #pragma once
 
+#include "overturn/answers/motion_request.hpp"
 #include "overturn/text/error.hpp"
 #include "overturn/text/quoting.hpp"
 #include "overturn/text/utf8.hpp"
@@ -22,22 +23,26 @@ inline std::string quoted_utf8(const std::string& text)
     return in_quotes(text);
 }
 
-/// The keys `pulse` and `shape` of [scene]; shape: the path of a table, or empty.
-inline std::string pulse_lines(const std::string& pulse, const std::string& shape)
+/// [scene], and [plane] with the strength of the motion, which is 0 if none is asked for. record:
+/// the value of this key in TOML; empty: a pulse.
+inline std::string motion_lines(const MotionRequest& request, const std::string& record)
 {
-    return fmt::format("pulse = {}\n{}", quoted_utf8(pulse),
-                       shape.empty() ? "" : fmt::format("shape = {}\n", quoted_utf8(shape)));
-}
-
-/// The key `component` of [scene]; empty without a component.
-inline std::string component_line(const std::string& component)
-{
-    if (component.empty()) {
-        return "";
+    std::string text = "[scene]\n";
+    if (!record.empty()) {
+        text += fmt::format("record = {}\n", record);
+    } else {
+        text += fmt::format("pulse = {}\n", quoted_utf8(request.pulse));
+        text +=
+            request.shape.empty() ? "" : fmt::format("shape = {}\n", quoted_utf8(request.shape));
     }
-    const bool is_number = component.find_first_not_of("0123456789") == std::string::npos &&
-                           !component.starts_with('0');
-    return fmt::format("component = {}\n", is_number ? component : quoted_utf8(component));
+    if (const std::string& component = request.component; !component.empty()) {
+        const bool is_number = component.find_first_not_of("0123456789") == std::string::npos &&
+                               !component.starts_with('0');
+        text += fmt::format("component = {}\n", is_number ? component : quoted_utf8(component));
+    }
+    return text + (request.scale || (!record.empty() && !request.pga)
+                       ? fmt::format("[plane]\nscale = {}\n", request.scale.value_or(0))
+                       : fmt::format("[plane]\npga = {}\n", request.pga.value_or(0)));
 }
 
 /// Refuses keys other than those of [scene] that no option has.

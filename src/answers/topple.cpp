@@ -24,14 +24,7 @@ constexpr int values_in_job = 17;
 std::string job_text(const ToppleRequest& request)
 {
     const bool is_recorded = !request.record.empty();
-    std::string text = "[scene]\n";
-    text += is_recorded ? fmt::format("record = {}\n", quoted_utf8(request.record))
-                        : pulse_lines(request.pulse, request.shape);
-    text += component_line(request.component);
-    text += "[plane]\n";
-    text += request.scale || (is_recorded && !request.pga)
-                ? fmt::format("scale = {}\n", request.scale.value_or(0))
-                : fmt::format("pga = {}\n", request.pga.value_or(0));
+    std::string text = motion_lines(request, is_recorded ? quoted_utf8(request.record) : "");
     if (!is_recorded) {
         text += fmt::format("pulse_period = {}\n", *request.period);
     }
@@ -71,13 +64,13 @@ void expect_consistent(const ToppleRequest& request)
               "the ground motion is missing. Give --period with the period of a pulse [s], or "
               "--record with the file of a recorded motion.");
     expect_keys_of_scene(request.overrides);
-    refuse_if(request.without_search && !request.pga && !request.scale,
+    refuse_if(request.without_search && !request.has_strength(),
               "--no-search leaves the verdict at one acceleration. Give --pga or --scale.");
-    refuse_if(request.with_history && !request.pga && !request.scale,
+    refuse_if(request.with_history && !request.has_strength(),
               "--history is that of one acceleration. Give --pga or --scale.");
     if (request.vary) {
         const std::string name(request.vary->quantity->name);
-        refuse_if(!request.pga && !request.scale,
+        refuse_if(!request.has_strength(),
                   "--vary searches at one acceleration. Give --pga or --scale.");
         refuse_if(
             request.block.contains(name) || (name == "restitution" && request.restitution) ||
@@ -191,7 +184,7 @@ answers_for(std::vector<Job> jobs, const ToppleRequest& request, int threads,
         all.push_back({std::move(job), std::move(history), {}});
     }
     std::size_t answered = 0;
-    ToppleQuestion question{.has_strength = request.pga || request.scale,
+    ToppleQuestion question{.has_strength = request.has_strength(),
                             .pga = request.pga,
                             .pga_max = request.pga_max,
                             .searches = !request.without_search,

@@ -142,9 +142,8 @@ void expect_positive(const std::string& name, const std::optional<double>& value
     }
 }
 
-/// The motion and the strength, for both kinds of requests.
-template <class Request>
-void take_motion(Members& members, Request& request)
+/// The motion, without its peak acceleration.
+void take_motion(Members& members, MotionRequest& request)
 {
     members.take("pulse", request.pulse);
     members.take("component", request.component);

@@ -2,6 +2,7 @@
 // and JSON. The verdicts are those of `topple`.
 #pragma once
 
+#include "overturn/answers/motion_request.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/sweep/assessment.hpp"
 
@@ -13,20 +14,13 @@
 namespace overturn {
 
 /// A table of objects, their motions, and what is asked for.
-struct AssessRequest {
-    std::string objects;                ///< path of a table of blocks
-    std::vector<std::string> records;   ///< paths; empty: a pulse
-    std::string component;              ///< of the records, its name or number
-    std::string pulse = "one_sine";     ///< its name
-    std::string shape;                  ///< path of its table; empty: none
-    std::vector<double> periods;        ///< of the pulse [s]
-    std::vector<double> directions;     ///< [degree]
-    std::optional<double> pga;          ///< over g [1]
-    std::optional<double> scale;        ///< of the records [1]
-    std::vector<std::string> overrides; ///< of keys of [scene]
-    double pga_max = 5;                 ///< the largest acceleration searched, over g [1]
-    bool fine = false;                  ///< whether strengths are searched as by topple
-    bool widths = true;                 ///< whether the width is searched that would save an object
+struct AssessRequest : MotionRequest {
+    std::string objects;              ///< path of a table of blocks
+    std::vector<std::string> records; ///< paths; empty: a pulse
+    std::vector<double> periods;      ///< of the pulse [s]
+    std::vector<double> directions;   ///< [degree]
+    bool fine = false;                ///< whether strengths are searched as by topple
+    bool widths = true;               ///< whether the width is searched that would save an object
 };
 
 /// The job whose blocks are the objects. If no strength is asked for, its motions are 0. Throws

@@ -3,6 +3,7 @@
 // `run`, `boundary` and `history`.
 #pragma once
 
+#include "overturn/answers/motion_request.hpp"
 #include "overturn/job/job.hpp"
 #include "overturn/problem/quantity.hpp"
 #include "overturn/sweep/history.hpp"
@@ -22,26 +23,15 @@ struct VariedQuantity {
     double last;
 };
 
-/// The largest acceleration over g that may be asked for. Steps of a search beyond it are too long,
-/// or too many.
-inline constexpr double largest_pga = 1000;
-
 /// A block, a motion, and what is asked for.
-struct ToppleRequest {
+struct ToppleRequest : MotionRequest {
     std::map<std::string, double> block; ///< quantities of the block, by name
     std::optional<double> direction;     ///< [degree]
-    std::string pulse = "one_sine";      ///< its name
-    std::string shape;                   ///< path of its table; empty: none
     std::optional<double> period;        ///< of the pulse [s]
     std::string record;                  ///< path; empty: a pulse
-    std::string component;               ///< of the record, its name or number
-    std::optional<double> pga;           ///< over g [1]
-    std::optional<double> scale;         ///< of the record [1]
     std::optional<double> restitution;
     std::optional<double> velocity_restitution;   ///< its root
     std::optional<double> restitution_of_maximum; ///< default, without the others: 1
-    std::vector<std::string> overrides;           ///< of keys of [scene]
-    double pga_max = 5;                           ///< the largest acceleration searched, over g [1]
     bool without_search = false;                  ///< only the verdict at the asked strength
     bool other_restitutions = true;               ///< whether ranges of others are searched, too
     bool with_history = false;                    ///< at the asked strength
