@@ -5,6 +5,7 @@
 #include "overturn/text/mapped.hpp"
 #include "overturn/text/quoting.hpp"
 
+#include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -82,14 +83,9 @@ std::string cell_of(const Json& value)
         return value.dump();
     }
     auto text = value.get<std::string>();
-    if (text.find_first_of(",\"\r\n") == std::string::npos) {
-        return text;
-    }
-    std::string quoted = "\"";
-    for (const char letter : text) {
-        quoted += letter == '"' ? "\"\"" : std::string(1, letter);
-    }
-    return quoted + "\"";
+    return text.find_first_of(",\"\r\n") == std::string::npos
+               ? text
+               : fmt::format("\"{}\"", boost::algorithm::replace_all_copy(text, "\"", "\"\""));
 }
 
 /// A share of a strength; with two digits, if that is more than one percent.

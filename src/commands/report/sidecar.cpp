@@ -1,10 +1,10 @@
 #include "sidecar.hpp"
 
+#include "overturn/answers/json.hpp"
 #include "overturn/file/provenance.hpp"
 #include "overturn/file/text_outputs.hpp"
 
 #include <fmt/chrono.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -18,7 +18,6 @@ namespace overturn {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Clock = std::chrono::system_clock; // dates
 
 constexpr double update_interval = 10; // [s]
@@ -62,11 +61,6 @@ std::string text_in(const Json& json, const char* name)
 {
     const auto found = json.find(name);
     return found != json.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
-Json if_known(const std::optional<double>& value)
-{
-    return value ? Json(*value) : Json();
 }
 
 } // namespace
@@ -130,7 +124,7 @@ std::string Sidecar::text(RunState state, const FarmReport* report) const
             json["write_seconds"] = share.write_seconds;
         }
     }
-    return sidecar.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return text_of(sidecar);
 }
 
 std::optional<LastRun> last_run_of(const std::string& path)
