@@ -23,15 +23,13 @@ int assess(const AssessOptions& options)
     if (!options.csv.empty()) {
         expect_place_for_answers(options.csv);
     }
-    std::optional<Progress> progress;
-    const Assessment assessment = assessment_of(
-        std::move(job), options, threads_of_processor(), [&](std::size_t done, std::size_t all) {
-            if (!progress) {
-                progress.emplace(0, std::int64_t(all), "cases");
-            }
-            progress->update(std::int64_t(done));
-        });
-    progress.reset();
+    const Assessment assessment = [&] {
+        Progress progress("cases");
+        return assessment_of(std::move(job), options, threads_of_processor(),
+                             [&](std::size_t done, std::size_t all) {
+                                 progress.update(std::int64_t(done), std::int64_t(all));
+                             });
+    }();
     if (!options.csv.empty()) {
         write_answers(options.csv, csv_of(assessment));
     }

@@ -40,18 +40,19 @@ StoredResult opened(const std::string& path, const OutputLock& lock)
 /// Counts steps of the work, and throws Error once a signal was received.
 class Steps {
 public:
-    Steps(std::int64_t all, const char* items) : progress_(0, all, items) {}
+    Steps(std::int64_t all, const char* items) : progress_(items), all_(all) {}
 
     void next()
     {
         if (StopSignals::requested()) {
             throw stopped_by_signal(" before the parts were merged");
         }
-        progress_.update(++done_);
+        progress_.update(++done_, all_);
     }
 
 private:
     Progress progress_;
+    std::int64_t all_;
     std::int64_t done_ = 0;
 };
 

@@ -85,7 +85,7 @@ FarmReport farm_tiles(const Task& task, const Node& node, const std::vector<std:
                       ResultWriter& file, Sidecar& sidecar)
 {
     const std::int64_t tiles_before = task.own.size() - std::int64_t(missing.size());
-    Progress progress(task.items_in(tiles_before), task.items_in(task.own.size()), task.items.name);
+    Progress progress(task.items.name, task.items_in(tiles_before));
     const TileOrder order(task.tiling.size());
     TileFields fields; // of the last tile computed
     const TileWork tile_work{
@@ -102,7 +102,7 @@ FarmReport farm_tiles(const Task& task, const Node& node, const std::vector<std:
         .write = [&](std::int64_t place) { file.write(task.tiling[order.tile(place)], fields); },
         .on_progress =
             [&](std::int64_t done) {
-                progress.update(task.items_in(tiles_before + done));
+                progress.update(task.items_in(tiles_before + done), task.items_in(task.own.size()));
                 sidecar.update(progress.state());
             }};
     return farm_out(task.session, node, order.places_of(missing), tile_work,

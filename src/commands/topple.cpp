@@ -37,15 +37,13 @@ int topple(const ToppleOptions& options)
         output_lock.emplace(options.history);
         expect_study_output(options.history, FileKind::history, *output_lock);
     }
-    std::optional<Progress> progress;
-    const std::vector<DirectedAnswer> answers = answers_for(
-        std::move(jobs), request, threads_of_processor(), [&](std::size_t done, std::size_t all) {
-            if (!progress) {
-                progress.emplace(0, std::int64_t(all), "restitutions");
-            }
-            progress->update(std::int64_t(done));
-        });
-    progress.reset();
+    const std::vector<DirectedAnswer> answers = [&] {
+        Progress progress("restitutions");
+        return answers_for(std::move(jobs), request, threads_of_processor(),
+                           [&](std::size_t done, std::size_t all) {
+                               progress.update(std::int64_t(done), std::int64_t(all));
+                           });
+    }();
     if (!options.history.empty()) {
         write_history_file(options.history, answers.front().job, *answers.front().history);
     }

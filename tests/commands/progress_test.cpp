@@ -20,7 +20,7 @@ std::string written(bool is_terminal, Use use)
 {
     std::FILE* const stream = std::tmpfile();
     {
-        Progress progress(0, 1000, "points", stream, is_terminal);
+        Progress progress("points", 0, stream, is_terminal);
         use(progress);
     }
     std::string text(std::size_t(std::ftell(stream)), '\0');
@@ -59,8 +59,8 @@ TEST(ProgressText, ShowsNoRateBeforeTheFirstPoint)
 TEST(Progress, IsSilentInAShortRun)
 {
     const auto short_run = [](Progress& progress) {
-        progress.update(500);
-        progress.update(1000);
+        progress.update(500, 1000);
+        progress.update(1000, 1000);
     };
     EXPECT_EQ(written(terminal, short_run), "");
     EXPECT_EQ(written(log_file, short_run), "");
@@ -70,8 +70,8 @@ TEST(Progress, PrintsTheFirstLineOfALogAfterTwoSeconds)
 {
     const std::string text = written(log_file, [](Progress& progress) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2050));
-        progress.update(500);
-        progress.update(501); // the next line appears after another 10 s
+        progress.update(500, 1000);
+        progress.update(501, 1000); // the next line appears after another 10 s
     });
     EXPECT_TRUE(text.starts_with("500 of 1.00 k points, 50 %")) << text;
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
@@ -82,9 +82,9 @@ TEST(Progress, RedrawsOneLineOnATerminalAndTerminatesIt)
     const std::string text = written(terminal, [](Progress& progress) {
         std::this_thread::sleep_for(std::chrono::milliseconds(250));
         for (int points = 1; points <= 400; ++points) {
-            progress.update(points); // all within one redraw interval: drawn once
+            progress.update(points, 1000); // all within one redraw interval: drawn once
         }
-        progress.update(1000); // complete: always drawn
+        progress.update(1000, 1000); // complete: always drawn
     });
     EXPECT_EQ(text.front(), '\r');
     EXPECT_EQ(std::count(text.begin(), text.end(), '\r'), 2);

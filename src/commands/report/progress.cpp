@@ -49,9 +49,8 @@ std::string progress_text(const ProgressState& state)
     return text;
 }
 
-Progress::Progress(std::int64_t before, std::int64_t all, const char* items, std::FILE* stream,
-                   bool terminal)
-    : state_{.before = before, .all = all, .items = items}, stream_(stream), terminal_(terminal),
+Progress::Progress(const char* items, std::int64_t before, std::FILE* stream, bool terminal)
+    : state_{.before = before, .items = items}, stream_(stream), terminal_(terminal),
       next_(terminal ? redraw_interval : first_log_line)
 {}
 
@@ -62,12 +61,13 @@ Progress::~Progress()
     }
 }
 
-void Progress::update(std::int64_t done)
+void Progress::update(std::int64_t done, std::int64_t all)
 {
     state_.done = done;
+    state_.all = all;
     state_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const bool last_redraw = line_is_open_ && done == state_.all;
+    const bool last_redraw = line_is_open_ && done == all;
     if (state_.seconds < next_ && !last_redraw) {
         return;
     }

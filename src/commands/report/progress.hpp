@@ -31,17 +31,17 @@ std::string progress_text(const ProgressState& state);
 
 class Progress {
 public:
-    /// items: the plural noun for what is counted. terminal: whether lines of the stream can be
-    /// redrawn.
-    Progress(std::int64_t before, std::int64_t all, const char* items, std::FILE* stream = stderr,
-             bool terminal = isatty(STDERR_FILENO) == 1);
+    /// items: the plural noun for what is counted. before: done by earlier runs. terminal: whether
+    /// lines of the stream can be redrawn.
+    explicit Progress(const char* items, std::int64_t before = 0, std::FILE* stream = stderr,
+                      bool terminal = isatty(STDERR_FILENO) == 1);
     /// Terminates a redrawn line.
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
     /// Prints the progress of all runs, if the interval since the last line has passed.
-    void update(std::int64_t done);
+    void update(std::int64_t done, std::int64_t all);
 
     const ProgressState& state() const { return state_; }
 
