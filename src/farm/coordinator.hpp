@@ -14,9 +14,6 @@
 
 namespace overturn {
 
-/// Rank 0 looks for messages at this interval, which takes a hundredth of it at most.
-inline constexpr std::chrono::milliseconds message_interval{1};
-
 /// A longer measured time is not the cost of an answer: rank 0 was not running, or MPI opened a
 /// connection.
 inline constexpr double longest_answer = 1e-4; // [s]
@@ -48,7 +45,7 @@ public:
                                        [](const NodeView& node) { return node.is_done(); })) {
             has_ended_ = true;
             for (NodeView& node : nodes_) {
-                answer(node, {.ranges = {}, .is_end_of_work = true});
+                answer(node, {end_of_work});
             }
         }
         tile_work_.on_progress(tiles_done_);
@@ -118,10 +115,10 @@ private:
         }
         if (message.requested_ranges > 0) {
             node.requested_ranges = message.requested_ranges;
-            std::vector<TileRange> ranges =
+            Answer ranges =
                 dispatcher_.next_ranges(node.ranks, limits(), int(message.requested_ranges));
             if (!ranges.empty()) {
-                answer(node, {std::move(ranges)});
+                answer(node, std::move(ranges));
             }
             if (!is_own(node)) {
                 const std::chrono::duration<double> seconds = Clock::now() - start;
@@ -140,11 +137,8 @@ private:
             own_answer_ = std::move(answer);
             return;
         }
-        if (answer.is_end_of_work) {
-            answer.ranges = {end_of_work};
-        }
-        MPI_Send(answer.ranges.data(), int(answer.ranges.size() * sizeof(TileRange)), MPI_BYTE,
-                 node.leader, answer_tag, session_.communicator());
+        MPI_Send(answer.data(), int(answer.size() * sizeof(TileRange)), MPI_BYTE, node.leader,
+                 answer_tag, session_.communicator());
     }
 
     /// From the times that answers and tiles have taken so far.

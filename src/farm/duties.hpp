@@ -69,9 +69,12 @@ private:
     {
         waits_ = false;
         ++signs_of_rank_0_;
-        node_.state().ended = answer.is_end_of_work;
         tiles_of_last_answer_ = 0;
-        for (const TileRange& range : answer.ranges) {
+        if (answer == Answer{end_of_work}) {
+            node_.state().ended = true;
+            return;
+        }
+        for (const TileRange& range : answer) {
             node_.state().pool.put(range);
             tiles_of_last_answer_ += range.length();
         }

@@ -16,9 +16,6 @@ namespace overturn {
 
 namespace {
 
-/// While a rank computes a tile, it attends to its other duties at this interval.
-constexpr std::chrono::microseconds attention_interval{100};
-
 /// Computes and writes one tile, and measures both times.
 void compute_and_write(std::int64_t number, const TileWork& tile_work,
                        const DropRequested& drop_requested, RankShare& share)

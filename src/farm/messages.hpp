@@ -24,13 +24,10 @@ struct NodeMessage {
     std::int64_t busy_nanoseconds = 0; ///< spent on them
 };
 
-/// From rank 0.
-struct Answer {
-    std::vector<TileRange> ranges;
-    bool is_end_of_work = false; ///< all tiles are done, or the run is to stop
-};
+/// From rank 0: what the node is given, or only `end_of_work`.
+using Answer = std::vector<TileRange>;
 
-/// In a message, for an answer that is the end of the work.
+/// All tiles are done, or the run is to stop.
 inline constexpr TileRange end_of_work{-1, -1};
 
 /// How the leader of a node reaches rank 0.
@@ -66,11 +63,7 @@ public:
         }
         int bytes = 0;
         MPI_Get_count(&status, MPI_BYTE, &bytes);
-        const auto end = ranges_.begin() + bytes / int(sizeof(TileRange));
-        if (end != ranges_.begin() && ranges_.front() == end_of_work) {
-            return Answer{.ranges = {}, .is_end_of_work = true};
-        }
-        return Answer{.ranges = {ranges_.begin(), end}};
+        return Answer(ranges_.begin(), ranges_.begin() + bytes / int(sizeof(TileRange)));
     }
 
 private:

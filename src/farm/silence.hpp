@@ -1,6 +1,8 @@
 // How ranks notice that others are suspended, or that their hosts are unreachable.
 #pragma once
 
+#include "intervals.hpp"
+
 #include "overturn/text/error.hpp"
 
 #include <chrono>
@@ -10,23 +12,6 @@
 #include <vector>
 
 namespace overturn {
-
-using Clock = std::chrono::steady_clock;
-
-/// Limits how often something is done in a loop.
-struct IntervalTimer {
-    Clock::duration interval;
-    Clock::time_point last = Clock::now();
-
-    /// True at most once per interval.
-    bool is_due()
-    {
-        const auto now = Clock::now();
-        const bool due = now - last >= interval;
-        last = due ? now : last;
-        return due;
-    }
-};
 
 /// Detects ranks that are silent for too long. If this rank itself was suspended, or its disk hung,
 /// the time starts again for all: the same may have happened to them.

@@ -1,6 +1,9 @@
 #include "overturn/farm/simulated_farm.hpp"
 
+#include "intervals.hpp"
+
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -14,8 +17,8 @@ namespace overturn {
 namespace {
 
 constexpr double message_seconds = 2e-6;
-constexpr double leader_is_late = 1e-4; // [s]
-constexpr double rank_0_is_late = 1e-3; // [s]
+constexpr double largest_delay =
+    std::chrono::duration<double>(attention_interval + message_interval).count(); // [s]
 
 class Simulation {
 public:
@@ -91,7 +94,7 @@ private:
         while (node.pool > answer.tiles) {
             time = take(answer.node);
         }
-        const double late = uniform_(generator_) * (leader_is_late + rank_0_is_late);
+        const double late = uniform_(generator_) * largest_delay;
         events_.push({time + late + message_seconds, answer.node, 0});
     }
 
