@@ -82,6 +82,11 @@ double lifting_pga(const Scene& scene, const Point& point)
     return pga_at({threshold(block, plus), threshold(block.other, plus.turned())}, scene, point);
 }
 
+bool may_slip(const Point& point)
+{
+    return std::isfinite(point.friction);
+}
+
 bool stays_flat(const Point& point)
 {
     const auto plus = sliding_side(point.block, point.gyration, point.friction);

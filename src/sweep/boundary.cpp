@@ -134,8 +134,7 @@ Boundary boundary_on(const Scene& scene, const BoundaryLine& where,
     const double lifting =
         lifting_pga(scene, unit) / pga_of_unit(scene, unit) * std::abs(where.unit);
     const auto points = [&](const std::vector<double>& values) { return where.points(values); };
-    const FlipSearch used =
-        search.value_or(flip_search(scene, std::isfinite(where.point.friction)));
+    const FlipSearch used = search.value_or(flip_search(scene, may_slip(where.point)));
     const bool is_sensitive = scene.motion_traits().is_sensitive;
     FlipScan scan =
         is_sensitive ? without_free_fall(scene, where, strengths) : FlipScan{strengths, {}};
@@ -151,8 +150,8 @@ Boundary boundary_on(const Scene& scene, const QuantityLine& where,
 {
     const double range = values.back() - values.front();
     const auto points = [&](const std::vector<double>& at) { return where.points(scene, at); };
-    const bool may_slip = std::isfinite(points({values.front()}).front().friction);
-    const FlipSearch used = search.value_or(flip_search(scene, may_slip));
+    const FlipSearch used =
+        search.value_or(flip_search(scene, may_slip(points({values.front()}).front())));
     const double widest =
         range * (scene.motion_traits().is_sensitive ? used.finest_step : widest_step_of_range);
     return flips_along({.at = points, .scale = [range](double) { return range; }}, scene,

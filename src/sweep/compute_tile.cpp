@@ -79,7 +79,7 @@ TileFields fields_of(const Boundaries& boundaries, const Problem& problem, const
     const std::vector<double> values = scanned.values.values();
     const bool is_pga = scanned.quantity->name == "pga";
     const double unit = pga_of_unit(scene, point);
-    FlipSearch search = flip_search(scene, std::isfinite(point.friction));
+    FlipSearch search = flip_search(scene, may_slip(point));
     search.most_flips = std::size_t(tile.points());
     search.drop_requested = drop_requested;
     const double of_direction = std::signbit(point.amplitude) ? -1 : 1; // mirrored

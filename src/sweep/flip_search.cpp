@@ -3,6 +3,7 @@
 #include "point_run.hpp"
 
 #include "overturn/mechanics/energy_criteria.hpp"
+#include "overturn/problem/coordinates.hpp"
 #include "overturn/text/mapped.hpp"
 
 #include <boost/math/tools/minima.hpp>
@@ -91,11 +92,6 @@ void forget_the_useless(std::vector<Probe>& probes, std::size_t most_flips)
             probes.resize(i + 1);
         }
     }
-}
-
-bool may_slip(const Point& point)
-{
-    return std::isfinite(point.friction);
 }
 
 /// Whether a block that just does not overturn on one side does not overturn on the other after the

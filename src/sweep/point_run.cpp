@@ -163,7 +163,7 @@ auto PointRun::with_excitation(int point, const Visitor& visit) const
 
 bool PointRun::has_friction() const
 {
-    return !points_.empty() && std::isfinite(points_.front().friction);
+    return !points_.empty() && may_slip(points_.front());
 }
 
 bool PointRun::differ_in_frequency_alone(int one, int other) const

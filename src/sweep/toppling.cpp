@@ -31,8 +31,7 @@ std::vector<double> friction_to_topple(const Scene& scene, const BoundaryLine& l
                                        const VerdictRanges& ranges, int threads)
 {
     const auto toppling = ranges.with(Verdict::topples);
-    if (toppling.empty() || !has_contact_forces(scene.theory) ||
-        std::isfinite(line.point.friction)) {
+    if (toppling.empty() || !has_contact_forces(scene.theory) || may_slip(line.point)) {
         return {};
     }
     // At the end itself, whether the block topples, and with it the friction, may be unknown.
@@ -222,7 +221,7 @@ namespace {
 std::optional<SlipAnswer> slip_of(const Problem& problem, const Point& point,
                                   const ToppleQuestion& question)
 {
-    if (!std::isfinite(point.friction)) {
+    if (!may_slip(point)) {
         return std::nullopt;
     }
     SlipAnswer slip{.friction = point.friction,

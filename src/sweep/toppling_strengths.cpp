@@ -2,6 +2,7 @@
 
 #include "point_run.hpp"
 
+#include "overturn/problem/coordinates.hpp"
 #include "overturn/text/mapped.hpp"
 
 #include <algorithm>
@@ -17,12 +18,10 @@ namespace {
 /// only the verdict at the asked strength is confirmed.
 Numerics numerics_of_search(const Point& point)
 {
-    const bool may_slip = std::isfinite(point.friction);
-    Numerics numerics;
-    numerics.method = Method::taylor;
-    numerics.resolve = !may_slip;
-    numerics.tolerance = may_slip ? numerics.tolerance : tolerance_to_resolve_from;
-    return numerics;
+    return may_slip(point) ? Numerics{.method = Method::taylor}
+                           : Numerics{.method = Method::taylor,
+                                      .tolerance = tolerance_to_resolve_from,
+                                      .resolve = true};
 }
 
 using VerdictsAt = std::function<std::vector<Verdict>(std::span<const double> accelerations)>;

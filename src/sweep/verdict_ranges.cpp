@@ -1,6 +1,7 @@
 #include "overturn/sweep/verdict_ranges.hpp"
 
 #include "overturn/problem/axis.hpp"
+#include "overturn/problem/coordinates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,9 @@ namespace {
 constexpr std::size_t most_points = 2500;
 constexpr int most_in_50_digits = 4;
 
-FlipSearch search_in(const Scene& scene, bool may_slip, const DropRequested& drop_requested)
+FlipSearch search_at(const Scene& scene, const Point& point, const DropRequested& drop_requested)
 {
-    FlipSearch search = flip_search(scene, may_slip);
+    FlipSearch search = flip_search(scene, may_slip(point));
     search.drop_requested = drop_requested;
     if (scene.motion_traits().is_sensitive) {
         search.most_in_50_digits = 0;
@@ -129,7 +130,7 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
         return ranges;
     }
     const std::vector<double> accelerations = scanned_accelerations(scene, lifting, end, included);
-    FlipSearch search = search_in(scene, std::isfinite(line.point.friction), drop_requested);
+    FlipSearch search = search_at(scene, line.point, drop_requested);
     if (scene.motion_traits().is_sensitive) {
         search.finest_step = 2 * toppling_step; // above every step: the scan is not divided
     }
@@ -143,9 +144,9 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
 VerdictRanges verdict_ranges(const Scene& scene, const QuantityLine& line, double first,
                              double last, const DropRequested& drop_requested)
 {
-    const bool may_slip = std::isfinite(line.points(scene, {first}).front().friction);
-    const Boundary boundary = boundary_on(scene, line, {first, last}, widest_kernel(),
-                                          search_in(scene, may_slip, drop_requested));
+    const Boundary boundary =
+        boundary_on(scene, line, {first, last}, widest_kernel(),
+                    search_at(scene, line.points(scene, {first}).front(), drop_requested));
     VerdictRanges ranges{.all = {}, .begin_of_search = first, .coarse = boundary.coarse};
     add_ranges(boundary, first, last, ranges.all);
     return ranges;

@@ -50,6 +50,9 @@ double lifting_pga(const Scene& scene, const Point& point);
 /// slide.
 double moving_pga(const Scene& scene, const Point& point);
 
+/// Whether the block has a friction coefficient.
+bool may_slip(const Point& point);
+
 /// Whether the block slides before it could lift on either side, so that it never rocks.
 bool stays_flat(const Point& point);
 
