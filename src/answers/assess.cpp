@@ -121,15 +121,21 @@ Assessment assessment_of(Job job, const AssessRequest& request, int threads,
                                       .parts = parts,
                                       .threads = threads,
                                       .progress = progress};
-    const std::vector<ObjectCase> cases = cases_of(job.problem, question);
-    Assessment assessment{std::move(job), answers_of(cases), {}};
-    const ObjectAnswer& worst = assessment.answers.front();
-    if (request.widths && parts.empty() && worst.verdict.value_or(Verdict::safe) != Verdict::safe) {
-        const auto its = std::ranges::equal_range(cases, worst.object, {}, &ObjectCase::object);
-        assessment.widths =
-            least_widths_of(assessment.job.problem, {its.begin(), its.end()}, threads);
+    std::vector<ObjectCase> cases = cases_of(job.problem, question);
+    std::vector<ObjectAnswer> answers = answers_of(cases);
+    return {std::move(job), std::move(cases), std::move(answers), {}};
+}
+
+std::optional<LeastWidths> least_widths_of(const Assessment& assessment, int threads)
+{
+    const auto& [job, cases, answers, widths] = assessment;
+    const ObjectAnswer& worst = answers.front();
+    if (job.blocks->table.find(column_of_azimuths) != nullptr ||
+        worst.verdict.value_or(Verdict::safe) == Verdict::safe) {
+        return std::nullopt;
     }
-    return assessment;
+    const auto its = std::ranges::equal_range(cases, worst.object, {}, &ObjectCase::object);
+    return least_widths_of(job.problem, {its.begin(), its.end()}, threads);
 }
 
 } // namespace overturn

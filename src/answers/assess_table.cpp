@@ -179,7 +179,7 @@ std::string csv_of(const Assessment& assessment)
 std::string json_of(const Assessment& assessment, const AssessRequest& request,
                     std::string_view program_version)
 {
-    const auto& [job, answers, widths] = assessment;
+    const auto& [job, cases, answers, widths] = assessment;
     const Scene& scene = job.problem.scene;
     Json members;
     members["program_version"] = program_version;

@@ -23,13 +23,14 @@ int assess(const AssessOptions& options)
     if (!options.csv.empty()) {
         expect_place_for_answers(options.csv);
     }
-    const Assessment assessment = [&] {
+    Assessment assessment = [&] {
         Progress progress("cases");
         return assessment_of(std::move(job), options, threads_of_processor(),
                              [&](std::size_t done, std::size_t all) {
                                  progress.update(std::int64_t(done), std::int64_t(all));
                              });
     }();
+    assessment.widths = least_widths_of(assessment, threads_of_processor());
     if (!options.csv.empty()) {
         write_answers(options.csv, csv_of(assessment));
     }

@@ -224,7 +224,6 @@ std::string assess_answer(Members& members)
 {
     AssessRequest request;
     request.objects = "objects";
-    request.widths = false; // the search tries impossible ones, which end the module
     std::string table;
     take_motion(members, request);
     members.take("pga", request.pga);

@@ -20,7 +20,6 @@ struct AssessRequest : MotionRequest {
     std::vector<double> periods;      ///< of the pulse [s]
     std::vector<double> directions;   ///< [degree]
     bool fine = false;                ///< whether strengths are searched as by topple
-    bool widths = true;               ///< whether the width is searched that would save an object
 };
 
 /// The job whose blocks are the objects. If no strength is asked for, its motions are 0. Throws
@@ -29,14 +28,18 @@ Job job_of(const AssessRequest& request);
 
 struct Assessment {
     Job job;
+    std::vector<ObjectCase> cases;     ///< object by object
     std::vector<ObjectAnswer> answers; ///< the most vulnerable object first
-    /// Of the first object, if it topples, or may, and has one row.
-    std::optional<LeastWidths> widths;
+    std::optional<LeastWidths>
+        widths; ///< see least_widths_of(), which may take as long as the rest
 };
 
 /// progress: called again and again, with the numbers of cases that are computed, and of all.
 Assessment assessment_of(Job job, const AssessRequest& request, int threads,
                          const std::function<void(std::size_t done, std::size_t all)>& progress);
+
+/// Of the first object, if it topples, or may, and has one row.
+std::optional<LeastWidths> least_widths_of(const Assessment& assessment, int threads);
 
 /// The value of a row, as a text.
 std::string text_in(const TableColumn& column, std::size_t row);

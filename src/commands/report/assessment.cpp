@@ -123,7 +123,7 @@ std::string widths_text(const std::string& name, const Scene& scene, const Least
 
 void print_assessment(const Assessment& assessment, const AssessOptions& options)
 {
-    const auto& [job, answers, widths] = assessment;
+    const auto& [job, all_cases, answers, widths] = assessment;
     const Scene& scene = job.problem.scene;
     const bool has_strength = answers.front().verdict.has_value();
     const std::int64_t cases =
