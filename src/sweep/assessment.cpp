@@ -269,9 +269,7 @@ std::optional<LeastWidths> least_widths_of(const Problem& problem,
     }
     in_threads(lines.size(), threads, [&](std::size_t i) {
         const auto safe_between = [&](double first, double last) {
-            return verdict_ranges(problem.scene, lines[i], first, last, nullptr)
-                .safe_from()
-                .value_or(last);
+            return verdict_ranges(problem.scene, lines[i], first, last).safe_from().value_or(last);
         };
         double from = safe_between(own, least.end);
         while (from < least.end) { // some above may topple in ranges narrower than the steps

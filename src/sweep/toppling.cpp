@@ -265,11 +265,11 @@ ToppleAnswer answer_of(const Problem& problem, const ToppleQuestion& question)
 }
 
 VerdictRanges ranges_along(const Problem& problem, const Quantity& quantity, double first,
-                           double last, const DropRequested& drop_requested)
+                           double last)
 {
     const Grid& grid = problem.grid;
     return verdict_ranges(problem.scene, line_along(quantity, grid, Shape(grid.dimensions.size())),
-                          first, last, drop_requested);
+                          first, last);
 }
 
 bool is_worse(const ToppleAnswer& one, const ToppleAnswer& other)

@@ -125,7 +125,7 @@ TopplingStrengths toppling_strengths(const Scene& scene, const BoundaryLine& lin
         return strengths_in_steps(scene, line, search, end);
     }
     const VerdictRanges ranges =
-        verdict_ranges(scene, line, search.lifting, search.end, search.asked, nullptr);
+        verdict_ranges(scene, line, search.lifting, search.end, search.asked);
     return {.lowest = ranges.nearest_above(Verdict::topples, 0),
             .undecided = ranges.nearest_above(Verdict::undecided, 0),
             .end = ranges.end_of_search(),

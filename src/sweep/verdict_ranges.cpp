@@ -17,10 +17,9 @@ namespace {
 constexpr std::size_t most_points = 2500;
 constexpr int most_in_50_digits = 4;
 
-FlipSearch search_at(const Scene& scene, const Point& point, const DropRequested& drop_requested)
+FlipSearch search_at(const Scene& scene, const Point& point)
 {
     FlipSearch search = flip_search(scene, may_slip(point));
-    search.drop_requested = drop_requested;
     if (scene.motion_traits().is_sensitive) {
         search.most_in_50_digits = 0;
     } else {
@@ -130,7 +129,8 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
         return ranges;
     }
     const std::vector<double> accelerations = scanned_accelerations(scene, lifting, end, included);
-    FlipSearch search = search_at(scene, line.point, drop_requested);
+    FlipSearch search = search_at(scene, line.point);
+    search.drop_requested = drop_requested;
     if (scene.motion_traits().is_sensitive) {
         search.finest_step = 2 * toppling_step; // above every step: the scan is not divided
     }
@@ -142,11 +142,10 @@ VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, doubl
 }
 
 VerdictRanges verdict_ranges(const Scene& scene, const QuantityLine& line, double first,
-                             double last, const DropRequested& drop_requested)
+                             double last)
 {
-    const Boundary boundary =
-        boundary_on(scene, line, {first, last}, widest_kernel(),
-                    search_at(scene, line.points(scene, {first}).front(), drop_requested));
+    const Boundary boundary = boundary_on(scene, line, {first, last}, widest_kernel(),
+                                          search_at(scene, line.points(scene, {first}).front()));
     VerdictRanges ranges{.all = {}, .begin_of_search = first, .coarse = boundary.coarse};
     add_ranges(boundary, first, last, ranges.all);
     return ranges;

@@ -47,8 +47,7 @@ TEST(VerdictRanges, UnderARecordAreSearchedInSmallStepsNextToTheAskedAcceleratio
         scene.motion = Suite{{std::make_shared<const Accelerogram>(record)}};
         const BoundaryLine line{.point = {{0.3, 0.85}, 1, 1000 / 50.0}, .unit = record.peak()};
         const double asked = std::tan(0.3) * (1.5 + 0.05 * i);
-        const VerdictRanges ranges =
-            verdict_ranges(scene, line, 0.97 * asked, 1.03 * asked, asked, nullptr);
+        const VerdictRanges ranges = verdict_ranges(scene, line, 0.97 * asked, 1.03 * asked, asked);
         for (int k = -20; k <= 20; ++k) {
             const double pga = asked * (1 + 0.001 * k);
             if (is_unsafe(boundary_on(scene, line, {pga}, widest_kernel()).region_at_first)) {
@@ -71,7 +70,7 @@ TEST(VerdictRanges, CoverTheSearchAndAgreeWithSingleVerdicts)
         const double frequency = 1 + 5 * uniform(generator);
         const BoundaryLine line{.point = {{alpha, restitution}, 1, frequency}, .unit = threshold};
         const double asked = threshold * (1 + 10 * uniform(generator));
-        const VerdictRanges ranges = verdict_ranges({}, line, threshold, 4, asked, nullptr);
+        const VerdictRanges ranges = verdict_ranges({}, line, threshold, 4, asked);
         EXPECT_EQ(ranges.all.front().first, 0);
         EXPECT_EQ(ranges.all.back().last, 4);
         for (std::size_t j = 1; j < ranges.all.size(); ++j) {

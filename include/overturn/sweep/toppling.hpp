@@ -83,7 +83,7 @@ ToppleAnswer answer_of(const Problem& problem, const ToppleQuestion& question);
 /// the block of the first point of a problem topples under the motion of this point. The value of
 /// the quantity there, if there is one, is not used; all values between the two must be allowed.
 VerdictRanges ranges_along(const Problem& problem, const Quantity& quantity, double first,
-                           double last, const DropRequested& drop_requested = nullptr);
+                           double last);
 
 /// Whether the answer for one direction of a motion is worse than that for another one: the block
 /// topples, or may topple; or it topples closer to the asked strength; without one, at less.

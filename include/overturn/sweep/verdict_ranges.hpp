@@ -74,11 +74,12 @@ std::vector<double> scanned_accelerations(const Scene& scene, double first, doub
 /// verdict the ranges must agree with, see scanned_accelerations(). drop_requested: see
 /// boundary_on().
 VerdictRanges verdict_ranges(const Scene& scene, const BoundaryLine& line, double lifting,
-                             double end, double included, const DropRequested& drop_requested);
+                             double end, double included,
+                             const DropRequested& drop_requested = nullptr);
 
 /// Along another quantity, between two values. The steps are those of boundary_on().
 VerdictRanges verdict_ranges(const Scene& scene, const QuantityLine& line, double first,
-                             double last, const DropRequested& drop_requested);
+                             double last);
 
 /// The worst verdict at each value of ranges of one quantity that were searched from the same first
 /// to the same last value.
