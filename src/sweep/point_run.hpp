@@ -66,12 +66,6 @@ public:
         return records_.empty() ? nullptr : records_[std::size_t(point)].get();
     }
 
-    /// The block of a point as seen from the side on which it ended.
-    Block<double> block_at_end(int point, const Outcome& outcome) const
-    {
-        return seen_from(outcome.side, this->point(point).block);
-    }
-
     /// The scaled pulse of a point.
     const ScaledPulse<double>& pulse_of(int point) const { return pulses_[point]; }
 
