@@ -32,6 +32,16 @@ struct Outcomes {
     int in_50_digits = 0;                 ///< the number of points that were computed in 50 digits
 };
 
+/// The outcome of a block that is not lifted, but slides.
+inline constexpr Outcome at_rest = [] {
+    Outcome outcome{};
+    outcome.side = 1;
+    outcome.region = Region::S;
+    outcome.margin = 1;
+    outcome.to_stick = std::numeric_limits<double>::infinity();
+    return outcome;
+}();
+
 /// The scaled pulses of points, in their order; successive points with the same one share it.
 struct ScaledPulses {
     ScaledPulses() = default;
@@ -100,11 +110,6 @@ public:
 
     double first_uplift(int point) const override;
 
-    /// Sets what the contact must bear during the ground motion and after it, by a run of its own;
-    /// the normal force over that at rest, and status::lifts_off. NaN for points without a verdict,
-    /// and where this run has another region than these outcomes. Only in the nonlinear theory.
-    void add_contact(Outcomes& outcomes) const;
-
 private:
     void throw_if_dropped() const;
 
@@ -155,7 +160,7 @@ inline void give_up(Outcome& outcome)
 void resolve(const PointRun& run, int most_in_50_digits, Outcomes& outcomes);
 
 /// The outcomes of all points of any job, resolved if its numerics ask for it. most_in_50_digits:
-/// see resolve(); by default, no point depends on the others.
+/// see resolve(); by default, no point depends on the others. Defined in outcomes_of.cpp.
 Outcomes outcomes_of(const PointRun& points, const Numerics& numerics, const Outputs& outputs,
                      int most_in_50_digits = std::numeric_limits<int>::max());
 
