@@ -60,10 +60,12 @@ std::string job_text(const AssessRequest& request)
     const Table table = read_table(text_of_file(request.objects, objects_file), request.objects);
     expect_different_names(table, request.objects);
     const auto has = [&](const char* name) { return table.find(name) != nullptr; };
-    const bool is_recorded = !request.records.empty();
-    const auto records = fmt::format("[{}]", fmt::join(mapped(request.records, quoted_utf8), ", "));
-    std::string text = motion_lines(request, is_recorded ? records : "");
-    if (!is_recorded) {
+    const std::string records =
+        request.records.empty()
+            ? ""
+            : fmt::format("[{}]", fmt::join(mapped(request.records, quoted_utf8), ", "));
+    std::string text = motion_lines(request, records);
+    if (records.empty()) {
         text +=
             fmt::format("pulse_period = {{ values = [{}] }}\n", fmt::join(request.periods, ", "));
     }

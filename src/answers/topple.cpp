@@ -23,9 +23,9 @@ constexpr int values_in_job = 17;
 /// gives no strength, its motion is 0.
 std::string job_text(const ToppleRequest& request)
 {
-    const bool is_recorded = !request.record.empty();
-    std::string text = motion_lines(request, is_recorded ? quoted_utf8(request.record) : "");
-    if (!is_recorded) {
+    const std::string record = request.record.empty() ? "" : quoted_utf8(request.record);
+    std::string text = motion_lines(request, record);
+    if (record.empty()) {
         text += fmt::format("pulse_period = {}\n", *request.period);
     }
     if (request.restitution) {

@@ -99,6 +99,27 @@ std::string dimensions_text(std::map<std::string, double> given)
     return text;
 }
 
+/// directions: how many are computed.
+void print_block_and_motion(const Job& job, const ToppleOptions& options, std::size_t directions)
+{
+    const Scene& scene = job.problem.scene;
+    print_row("block", dimensions_text(options.block) + block_line(job));
+    std::string direction;
+    if (directions > 1) {
+        direction = "; directions 0 and 180 degrees, its mirror image";
+    } else if (options.direction) {
+        direction = fmt::format("; direction {} degrees", *options.direction);
+    }
+    if (scene.has_two_components()) {
+        direction += fmt::format(", {:.3g} g", pga_of_unit(scene, only_point_of(job.problem)));
+    }
+    print_row("motion", motion_text(job, options) + direction);
+    print_motion_of("", scene.motion_of);
+    if (scene.theory != Scene().theory) {
+        print_row("theory", name_of(scene.theory));
+    }
+}
+
 void print_question(const std::vector<DirectedAnswer>& all, const ToppleOptions& options)
 {
     print_block_and_motion(all.front().job, options, all.size());
@@ -142,27 +163,16 @@ void print_ranges(const Scene& scene, const ToppleAnswer& answer)
     }
 }
 
-} // namespace
-
-void print_block_and_motion(const Job& job, const ToppleOptions& options, std::size_t directions)
+std::string steps_text(const Scene& scene, const VariedQuantity& vary)
 {
-    const Scene& scene = job.problem.scene;
-    print_row("block", dimensions_text(options.block) + block_line(job));
-    std::string direction;
-    if (directions > 1) {
-        direction = "; directions 0 and 180 degrees, its mirror image";
-    } else if (options.direction) {
-        direction = fmt::format("; direction {} degrees", *options.direction);
-    }
-    if (scene.has_two_components()) {
-        direction += fmt::format(", {:.3g} g", pga_of_unit(scene, only_point_of(job.problem)));
-    }
-    print_row("motion", motion_text(job, options) + direction);
-    print_motion_of("", scene.motion_of);
-    if (scene.theory != Scene().theory) {
-        print_row("theory", name_of(scene.theory));
-    }
+    return fmt::format("searched in steps of {:.4g}{}{}; narrower ranges may be missed",
+                       step_of_search(scene, vary), unit_of(*vary.quantity),
+                       scene.motion_traits().is_sensitive
+                           ? ""
+                           : ", halved where the motion indicates more changes");
 }
+
+} // namespace
 
 void print_answer(const std::vector<DirectedAnswer>& all, const ToppleOptions& options)
 {
@@ -199,19 +209,6 @@ void print_answer(const std::vector<DirectedAnswer>& all, const ToppleOptions& o
                    undecided > 0 ? "are" : "is");
     }
 }
-
-namespace {
-
-std::string steps_text(const Scene& scene, const VariedQuantity& vary)
-{
-    return fmt::format("searched in steps of {:.4g}{}{}; narrower ranges may be missed",
-                       step_of_search(scene, vary), unit_of(*vary.quantity),
-                       scene.motion_traits().is_sensitive
-                           ? ""
-                           : ", halved where the motion indicates more changes");
-}
-
-} // namespace
 
 void print_varied(const std::vector<DirectedRanges>& all, const ToppleOptions& options)
 {
