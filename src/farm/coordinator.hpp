@@ -18,8 +18,8 @@ namespace overturn {
 /// connection.
 inline constexpr double longest_answer = 1e-4; // [s]
 
-/// Rank 0's view of the nodes. The first node is its own.
-class Coordinator {
+/// Rank 0's view of the nodes. The first node is its own, which reaches it without messages.
+class Coordinator : public Link {
 public:
     Coordinator(const MpiSession& session, const std::vector<int>& leader_of_rank,
                 const std::vector<std::int64_t>& tiles, const TileWork& tile_work,
@@ -45,16 +45,14 @@ public:
                                        [](const NodeView& node) { return node.is_done(); })) {
             has_ended_ = true;
             for (NodeView& node : nodes_) {
-                answer(node, {end_of_work});
+                reply(node, {end_of_work});
             }
         }
         tile_work_.on_progress(tiles_done_);
     }
 
-    void receive_from_own_node(const NodeMessage& message) { receive(nodes_.front(), message); }
-
-    /// The answer to the request of rank 0's own node, once.
-    std::optional<Answer> answer_to_own_node() { return std::exchange(own_answer_, {}); }
+    void send(const NodeMessage& message) override { receive(nodes_.front(), message); }
+    std::optional<Answer> answer() override { return std::exchange(own_answer_, {}); }
 
     const DispatchCost& cost() const { return cost_; }
 
@@ -118,7 +116,7 @@ private:
             Answer ranges =
                 dispatcher_.next_ranges(node.ranks, limits(), int(message.requested_ranges));
             if (!ranges.empty()) {
-                answer(node, std::move(ranges));
+                reply(node, std::move(ranges));
             }
             if (!is_own(node)) {
                 const std::chrono::duration<double> seconds = Clock::now() - start;
@@ -130,7 +128,7 @@ private:
 
     bool is_own(const NodeView& node) const { return &node == &nodes_.front(); }
 
-    void answer(NodeView& node, Answer answer)
+    void reply(NodeView& node, Answer answer)
     {
         node.requested_ranges = 0;
         if (is_own(node)) {
@@ -162,7 +160,7 @@ private:
         }
         for (NodeView& node : nodes_) {
             if (node.is_done()) {
-                answer(node, {});
+                reply(node, {});
             }
         }
     }
@@ -180,17 +178,6 @@ private:
     std::int64_t tiles_done_ = 0;
     std::int64_t busy_nanoseconds_ = 0;
     DispatchCost cost_;
-};
-
-class LinkWithinRank0 : public Link {
-public:
-    explicit LinkWithinRank0(Coordinator& coordinator) : coordinator_(coordinator) {}
-
-    void send(const NodeMessage& message) override { coordinator_.receive_from_own_node(message); }
-    std::optional<Answer> answer() override { return coordinator_.answer_to_own_node(); }
-
-private:
-    Coordinator& coordinator_;
 };
 
 } // namespace overturn

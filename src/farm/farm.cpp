@@ -84,8 +84,7 @@ FarmReport farm_out(const MpiSession& session, const Node& node,
     FarmReport report;
     if (session.rank() == 0) {
         Coordinator coordinator(session, node.leaders(), tiles, tile_work, stop, patience);
-        LinkWithinRank0 link(coordinator);
-        Leader leader(session, node, link, patience, message_interval);
+        Leader leader(session, node, coordinator, patience, message_interval);
         report.ranks = {compute_tiles(node, tile_work, stop, [&] {
             coordinator.communicate();
             leader.attend();
