@@ -37,19 +37,28 @@ FirstToppling first_toppling(const VerdictsAt& verdicts_at, std::span<const doub
                              double safe)
 {
     FirstToppling first;
-    constexpr std::size_t at_once = 32;
-    for (std::size_t begin = 0; begin < scan.size() && !first.pga; begin += at_once) {
-        const auto part = scan.subspan(begin, std::min(at_once, scan.size() - begin));
-        const std::vector<Verdict> verdicts = verdicts_at(part);
-        for (std::size_t i = 0; i < part.size() && !first.pga; ++i) {
+    // Of these accelerations, all before the first one that topples. Returns whether any is
+    // settled.
+    const auto look_at = [&](std::span<const double> all, std::optional<double>& undecided) {
+        const std::vector<Verdict> verdicts = verdicts_at(all);
+        bool has_settled = false;
+        for (std::size_t i = 0; i < all.size(); ++i) {
             if (verdicts[i] == Verdict::topples) {
-                first.pga = part[i];
-            } else if (verdicts[i] == Verdict::safe) {
-                safe = part[i];
-            } else if (!first.undecided) {
-                first.undecided = part[i];
+                first.pga = all[i];
+                return true;
+            }
+            if (verdicts[i] == Verdict::safe) {
+                safe = all[i];
+                has_settled = true;
+            } else {
+                undecided = undecided.value_or(all[i]);
             }
         }
+        return has_settled;
+    };
+    constexpr std::size_t at_once = 32;
+    for (std::size_t begin = 0; begin < scan.size() && !first.pga; begin += at_once) {
+        look_at(scan.subspan(begin, std::min(at_once, scan.size() - begin)), first.undecided);
     }
     // In steps of a ninth, as many as a pack has lanes at once.
     while (first.pga &&
@@ -58,21 +67,9 @@ FirstToppling first_toppling(const VerdictsAt& verdicts_at, std::span<const doub
         for (int i = 1; i <= 8; ++i) {
             between.push_back(safe + (*first.pga - safe) * i / 9);
         }
-        const std::vector<Verdict> verdicts = verdicts_at(between);
-        bool has_settled = false;
-        for (std::size_t i = 0; i < between.size(); ++i) {
-            if (verdicts[i] == Verdict::topples) {
-                first.pga = between[i];
-                has_settled = true;
-                break;
-            }
-            if (verdicts[i] == Verdict::safe) {
-                safe = between[i];
-                has_settled = true;
-            }
-        }
-        if (!has_settled) {
-            first.undecided = first.undecided.value_or(between.front());
+        std::optional<double> undecided;
+        if (!look_at(between, undecided)) {
+            first.undecided = first.undecided ? first.undecided : undecided;
             break;
         }
     }
