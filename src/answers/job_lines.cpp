@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <ranges>
@@ -241,6 +242,38 @@ std::vector<std::string> notes_on(const Job& job)
     return lines;
 }
 
+namespace {
+
+/// The directions in which a motion is computed [degree].
+std::vector<double> directions_in(const Grid& grid)
+{
+    const Column* const given = grid.find("direction");
+    return given == nullptr ? std::vector<double>{0} : given->values.values();
+}
+
+bool is_along_first(double direction)
+{
+    return std::remainder(direction, 180) == 0;
+}
+
+/// Whether a column of a table, such as depth_cm, is the other side of the base and shorter than
+/// the width in some row. width: in metres.
+bool is_depth_below(const TableColumn& column, const TableColumn& width)
+{
+    constexpr std::array<std::pair<std::string_view, double>, 4> units{
+        {{"depth", 1}, {"depth_m", 1}, {"depth_cm", 0.01}, {"depth_mm", 0.001}}};
+    const auto* const unit =
+        std::ranges::find(units, column.name, &std::pair<std::string_view, double>::first);
+    if (unit == units.end()) {
+        return false;
+    }
+    return !std::ranges::equal(column.numbers, width.numbers, [&](double depth, double wide) {
+        return !(unit->second * depth < wide);
+    });
+}
+
+} // namespace
+
 std::vector<std::string> warnings_on(const Job& job)
 {
     const Grid& grid = job.problem.grid;
@@ -258,6 +291,13 @@ std::vector<std::string> warnings_on(const Job& job)
                 motion.measures.pga, motion.file, *motion.ground_pga));
         }
     }
+    if (job.problem.scene.has_two_components() &&
+        std::ranges::all_of(directions_in(grid), is_along_first)) {
+        warnings.push_back("the second horizontal component has no effect, since the motion is "
+                           "computed only in the "
+                           "direction of the first one; give several values of direction, such as "
+                           "0, 15, 30 ... 345");
+    }
     for (const TableColumn& column :
          job.blocks ? job.blocks->table.columns : std::vector<TableColumn>()) {
         if (grid.has_table_column(column.name)) {
@@ -268,6 +308,15 @@ std::vector<std::string> warnings_on(const Job& job)
                 fmt::format("the column {} of {} has no effect: it is a key of the job, but not a "
                             "property of the blocks under this motion",
                             in_quotes(column.name), job.blocks->file));
+        } else if (const TableColumn* width = job.blocks->table.find("width");
+                   width != nullptr && is_depth_below(column, *width)) {
+            warnings.push_back(fmt::format("the column {} of {} has no effect, but the depth of an "
+                                           "object is smaller than its width: "
+                                           "it topples first over its shorter side. Give that as "
+                                           "the width, or both as rows with the "
+                                           "same {}",
+                                           in_quotes(column.name), job.blocks->file,
+                                           column_of_azimuths));
         } else if (const std::string_view meant = quantity_meant_by(column.name, grid);
                    !meant.empty()) {
             warnings.push_back(fmt::format("the column {} of {} has no effect (did you mean {}?)",

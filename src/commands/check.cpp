@@ -106,6 +106,18 @@ std::vector<std::string> warnings_on_space(double bytes, const DiskSpace& space,
                     human_bytes(bytes), human_bytes(*available), folder)};
 }
 
+/// A warning if most of what the run costs is spent by ranks that wait.
+std::vector<std::string> warnings_on_waiting(const RunEstimate& estimate)
+{
+    if (estimate.ranks == 1 || estimate.tile_share() > 0.5) {
+        return {};
+    }
+    return {fmt::format(
+        "{} ranks would wait for {:.0f} % of the time, most of it while the file is created; "
+        "fewer ranks cost less",
+        estimate.ranks, 100 * (1 - estimate.tile_share()))};
+}
+
 } // namespace
 
 int check(const CheckOptions& options)
@@ -129,6 +141,7 @@ int check(const CheckOptions& options)
     if (options.json) {
         const RunEstimate estimate =
             estimate_run(job, kernel, options.ranks, reading, folder, space);
+        std::ranges::copy(warnings_on_waiting(estimate), std::back_inserter(warnings));
         fmt::print("{}", json_of(job, path, space, estimate, warnings));
         return exit_code::complete;
     }
@@ -137,7 +150,9 @@ int check(const CheckOptions& options)
     print_size(job);
     print_space(space, folder);
     std::fflush(stdout);
-    print_time(job.problem, estimate_run(job, kernel, options.ranks, reading, folder, space));
+    const RunEstimate estimate = estimate_run(job, kernel, options.ranks, reading, folder, space);
+    print_time(job.problem, estimate);
+    print_warnings(warnings_on_waiting(estimate));
     return exit_code::complete;
 }
 

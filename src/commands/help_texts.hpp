@@ -166,7 +166,7 @@ than 30 s, the run may be dead, and its state is unknown.)";
 inline constexpr const char* verify = R"(Example:
   overturn verify smoke.h5
 
-Checks the coordinates against the job in the file, and each finished tile against its checksum.
+Checks the values of the coordinates and of each finished tile.
 Exit code 0: the file is intact, even if tiles are missing; 74: it is damaged. A run of the same job
 recomputes damaged tiles.)";
 

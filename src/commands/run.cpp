@@ -168,7 +168,11 @@ int run_on_this_rank(const Task& task)
     int code = exit_code::complete;
     if (task.is_rank_0()) {
         const double seconds = std::chrono::duration<double>(Clock::now() - task.start).count();
-        sidecar.finish(report);
+        try {
+            sidecar.finish(report);
+        } catch (const Error& error) { // such as of a full disk; the result is complete without it
+            print_warnings({error.what()});
+        }
         code = report_end(task, report, seconds);
     }
     return task.session.from_rank_0(code);

@@ -33,8 +33,8 @@ FlipSearch search_at(const Scene& scene, const Point& point)
 /// toppling range may be narrower than the steps of the scan.
 std::vector<double> with_neighbours(std::vector<double> scan, double included, const Scene& scene)
 {
-    constexpr int neighbours = 20; // on each side
-    constexpr double step = 0.001; // over the acceleration
+    constexpr int neighbours = 100; // on each side
+    constexpr double step = 0.001;  // over the acceleration
     const int most = scene.motion_traits().is_sensitive ? neighbours : 0;
     const double first = scan.front();
     const double last = scan.back();

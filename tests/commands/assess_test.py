@@ -234,6 +234,20 @@ class Assess(Scratch):
                 else:
                     self.assertEqual(found[name][key], value)
 
+    def test_warns_of_a_base_that_is_wider_than_deep_and_of_a_component_without_effect(self):
+        def warnings(depth, *options):
+            self.write_table(f"name,width_mm,depth_cm,height\nstele,520,{depth},2.1\nbust,300,40,1\n")
+            found = self.overturn("assess", "objects.csv", *(options or ("--period", "0.5")))
+            self.assert_exit(found, 0)
+            return found.stderr
+        self.assertIn('the column "depth_cm" of objects.csv has no effect, but the depth of an object is smaller than its '
+                      "width", warnings(51))
+        self.assertNotIn("warning", warnings(52))
+        two = ("--record", str(JOBS / "synthetic.AT2"), "--set",
+               f"scene.second_component={json.dumps(str(JOBS / 'synthetic_vertical.AT2'))}", "--direction")
+        self.assertIn("the second horizontal component has no effect", warnings(52, *two, "0,180"))
+        self.assertNotIn("has no effect", warnings(52, *two, "0,30"))
+
     def test_takes_an_empty_cell_of_an_offset_or_incline_as_zero(self):
         self.write_table("name,width,height,incline,center_offset\na,0.2,0.5,0.03,0.01\nb,0.4,1.2,0,0\n")
         expected = self.rows("--period", "0.5", "--pga", "0.4")

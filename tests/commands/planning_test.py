@@ -115,6 +115,12 @@ class Planning(Scratch):
         self.assertGreater(plan["file_bytes"], sum(BYTES.values()) * 10**10)
         self.assertGreater(plan["core_hours"], 1)
 
+    def test_warns_if_most_ranks_would_wait(self):
+        for ranks, is_warned in ((1, False), (4096, True)):
+            found = self.overturn("check", "small.toml", "--ranks", ranks)
+            self.assert_exit(found, 0)
+            self.assertEqual("fewer ranks cost less" in found.stderr, is_warned, found.stderr)
+
     def test_refuses_an_impossible_number_of_ranks(self):
         for ranks in ("0", "-1", "many"):
             self.assert_exit(self.overturn("check", "small.toml", "--ranks", ranks), 2, "--ranks")

@@ -34,7 +34,8 @@ gamma = 2). Its amplitude A is 1.5 times the PGV of the noise:
 
   v = A/2 (1 + cos(pi s/T)) sin(2 pi s/T),   s = t - 0.25 D,   |s| <= T
 
-Each record of a suite has a seed of its own. Its duration (10 to 30 s), PGA (median: --pga), ground
+The records of a suite have the seeds S, S + 1 and so on: the suite of another seed has other records
+only if they are farther apart than its length. The duration (10 to 30 s), PGA (median: --pga), ground
 frequency (median: --ground-frequency) and, in 3 of 10, the period of a pulse (median 1.5 s) are random;
 all but the duration are lognormal with a scatter of 0.4. The second line of a file is the command
 that writes it alone.

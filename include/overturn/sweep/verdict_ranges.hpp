@@ -65,7 +65,7 @@ struct VerdictRanges {
 
 /// The accelerations over g, ascending, at which the verdicts between `first` and `last` are
 /// searched, before the steps between them are halved. With `included`, if it is between them;
-/// under a record, the steps next to it are smaller, 0.1 % up to 2 % away.
+/// under a record, the steps next to it are smaller, 0.1 % up to 10 % away.
 std::vector<double> scanned_accelerations(const Scene& scene, double first, double last,
                                           double included = 0);
 

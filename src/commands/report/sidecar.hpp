@@ -34,7 +34,8 @@ public:
     /// goes on, and finish() reports the reason.
     void update(const ProgressState& progress);
 
-    /// Replaces the file by that of a run that has ended. Throws Error.
+    /// Replaces the file by that of a run that has ended. Throws Error, which is no error of the
+    /// run.
     void finish(const FarmReport& report) const;
 
 private:
