@@ -126,6 +126,13 @@ class TheRate(unittest.TestCase):
             text = risk.annual_rate(bent(), dataclasses.replace(fragility, samples=samples)).summary()
             self.assertEqual("warning: the rates with and without the fit differ by a factor of" in text, warns, text)
 
+    def test_with_an_interval_warns_if_the_shares_are_outside_of_it(self):
+        curve = overturn.fragility(result(*population()), "pga", bins=40, samples=50)
+        for factor in (1, 3):
+            other = dataclasses.replace(curve, median=factor * curve.median, samples=curve.samples * [factor, 1])
+            self.assertEqual("without the fit is outside the confidence interval" in risk.annual_rate(bent(), other).summary(),
+                             factor > 1)
+
     def test_is_refused_for_another_measure_or_another_unit(self):
         for im, units in (("pgv", "m/s"), ("pga", "m/s2")):
             hazard = risk.Hazard([0.1, 1], [0.1, 1e-3], im, units)

@@ -117,6 +117,9 @@ def annual_rate(hazard: Hazard, fragility: Fragility | Probability, *, edges: Ar
         if np.isnan(interval[0]) and max(lows) > TOLERABLE * min(highs):
             notes.append(f"warning: the rates with and without the fit differ by a factor of {max(lows) / min(highs):.2g}, "
                          "and there is no confidence interval. Use more motions")
+        if max(of_shares) < interval[0] or min(of_shares) > interval[1]:
+            notes.append("warning: the rate without the fit is outside the confidence interval of that with it, so that the "
+                         "fit does not describe these points. Compare both in the picture")
     return Risk(p.im, p.units, rate[0], interval, np.array([0, first, *inner, last, np.inf]), contribution[0],
                 float(abs((halved - within)[0].sum(axis=-1)).max()), tuple(notes))
 
