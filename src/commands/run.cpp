@@ -21,6 +21,9 @@
 #include "overturn/sweep/compute_tile.hpp"
 #include "overturn/text/quoting.hpp"
 
+#include <boost/algorithm/string/classification.hpp>
+#include <boost/algorithm/string/trim.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <csignal>
@@ -171,7 +174,8 @@ int run_on_this_rank(const Task& task)
         try {
             sidecar.finish(report);
         } catch (const Error& error) { // such as of a full disk; the result is complete without it
-            print_warnings({error.what()});
+            print_warnings({boost::algorithm::trim_right_copy_if(
+                std::string(error.what()), boost::algorithm::is_any_of("."))});
         }
         code = report_end(task, report, seconds);
     }
