@@ -262,7 +262,7 @@ bool is_depth_below(const TableColumn& column, const TableColumn& width)
 {
     constexpr std::array<std::pair<std::string_view, double>, 4> units{
         {{"depth", 1}, {"depth_m", 1}, {"depth_cm", 0.01}, {"depth_mm", 0.001}}};
-    const auto* const unit =
+    const auto unit =
         std::ranges::find(units, column.name, &std::pair<std::string_view, double>::first);
     if (unit == units.end()) {
         return false;
