@@ -82,6 +82,18 @@ class TheFriction(unittest.TestCase):
                 overturn.fragility(data, friction_demand=wrong)
 
 
+class ASlidingBlock(unittest.TestCase):
+    def test_that_leaves_its_support_is_no_survivor_without_a_note(self):
+        slide = np.full((12, 5, 6), 0.5)
+        data = result(np.random.default_rng(9).choice([S, U0], slide.shape), [1, 2, 3, 4, 5], slide_peak=slide)
+        self.assertNotIn("slide", overturn.fragility(data).summary())
+        slips = data.assign_coords(friction=0.4)
+        self.assertIn("a block that slides off its support counts as standing", overturn.fragility(slips).summary())
+        beyond = overturn.fragility(slips, of="slide_peak", above=0.6).summary()
+        self.assertIn("a block that overturns only counts if its slide_peak is above the level", beyond)
+        self.assertNotIn("counts as standing", beyond)
+
+
 class TheMotions(unittest.TestCase):
     def test_of_joined_suites_are_counted_by_name(self):
         self.assertEqual(overturn.fragility(joined_suites(6)).motions, 12)

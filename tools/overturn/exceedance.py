@@ -47,6 +47,15 @@ class Exceedance:
     def verb(self):
         return "overturns" if self.above is None else f"has {self.of} > {self.above:g}"
 
+    def notes(self, dataset):
+        """Returns what the verdicts of blocks that may slide leave out."""
+        if "friction" not in dataset.coords:
+            return []
+        if self.of in (OVERTURNING, "peak"):
+            return ["the base has no end: a block that slides off its support counts as standing; see the field "
+                    "slide_peak"]
+        return [f"a block that overturns only counts if its {self.of} is above the level"]
+
     def verdicts(self, dataset, friction_demand=None):
         """Returns the verdict of each point, with the dimensions of the region. A point has none if its region is not
         known, if the field is NaN, or if it needs more than this friction coefficient. A block that overturns has

@@ -33,7 +33,8 @@ def points_of(dataset, measures, exceedance, friction_demand, together=None):
     values = [each.max(dimension, keep_attrs=True) if together is not None and name in vary else each
               for name, each in measures.items()]
     cells = combined([cells_of(part, values, exceedance, friction_demand, together is not None) for part in parts])
-    return cells, blocks, [f"{name} is the largest of those in the directions of the {whose}" for name in vary]
+    return cells, blocks, [*(f"{name} is the largest of those in the directions of the {whose}" for name in vary),
+                           *exceedance.notes(dataset)]
 
 
 def blocks_of(dataset):
