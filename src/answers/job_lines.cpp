@@ -267,9 +267,12 @@ bool is_depth_below(const TableColumn& column, const TableColumn& width)
     if (unit == units.end()) {
         return false;
     }
-    return !std::ranges::equal(column.numbers, width.numbers, [&](double depth, double wide) {
-        return !(unit->second * depth < wide);
-    });
+    for (std::size_t row = 0; row < column.numbers.size(); ++row) {
+        if (unit->second * column.numbers[row] < width.numbers[row]) {
+            return true;
+        }
+    }
+    return false;
 }
 
 } // namespace

@@ -220,6 +220,8 @@ class Assess(Scratch):
         self.assertIsNone(rows["vase"]["lifts_from"])
         self.assertEqual(rows["statue"]["verdict"], "topples")  # which would stand if it could not slip
         self.assertAlmostEqual(rows["statue"]["topples_from"], 0.903568714, delta=1e-4)
+        far = self.overturn("assess", "objects.csv", "--period", "4", "--pga", "1.9", "--pga-max", "2").stdout
+        self.assertRegex(far, r"vase .* \d{4,} mm")
 
     def test_reads_tables_with_semicolons_decimal_commas_and_units(self):
         self.write_table("name,width,height,incline\nvase,0.18,0.45,0\nleaning,0.41,1.2,0.05\n")

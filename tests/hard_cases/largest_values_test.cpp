@@ -153,8 +153,8 @@ TEST_F(LargestValues, OfTheHeightGiveAFiniteMarginOrAFlag)
 TEST_F(LargestValues, OfTheWindowGiveAVerdict)
 {
     for (const PulseKind pulse : {PulseKind::symmetric_ricker, PulseKind::antisymmetric_ricker}) {
-        for (const double window : {1e-300, 1e-100, 1e-16, 8.0}) {
-            for (const double amplitude : {0.5, 3.0, 1e3, 1e16}) {
+        for (const double window : {1e-300, 1e-16, 8.0}) {
+            for (const double amplitude : {0.5, 3.0, 1e16}) {
                 expect_right_verdicts({.pulse = pulse, .amplitude = amplitude, .window = window});
             }
         }

@@ -191,7 +191,7 @@ TEST(Sliding, OnALevelBaseNeverAddsEnergyOnceTheGroundHasStopped)
     std::mt19937_64 generator(3);
     std::uniform_real_distribution<double> uniform(0, 1);
     std::array<int, 4> steps{}; // by mode
-    while (std::accumulate(steps.begin(), steps.end(), 0) < 1'000'000) {
+    while (std::accumulate(steps.begin(), steps.end(), 0) < 400'000) {
         Body body{0.1 + 0.4 * uniform(generator), 0.1 + 0.4 * uniform(generator), 0.9, 0.5};
         body.share_of_r_max = 0.6 + 0.4 * uniform(generator);
         const Block<double> block = body.block();
@@ -215,7 +215,7 @@ TEST(Sliding, OnALevelBaseNeverAddsEnergyOnceTheGroundHasStopped)
             motion.advance();
         }
     }
-    EXPECT_TRUE(std::ranges::all_of(steps, [](int count) { return count > 10'000; }));
+    EXPECT_TRUE(std::ranges::all_of(steps, [](int count) { return count > 4'000; }));
 }
 
 } // namespace

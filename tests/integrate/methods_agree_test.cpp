@@ -59,7 +59,7 @@ TEST(Methods, AgreeWithFiftyDigitsWithinTheirTolerances)
 {
     std::mt19937_64 generator(5);
     for_every_scene([&]<Theory theory>(PulseKind pulse) {
-        for (int i = 0; i < 15; ++i) {
+        for (int i = 0; i < 9; ++i) {
             const PulsePoint<double> point = random_point(generator);
             const auto exact = forced_end<theory>(pulse, in_digits(point), reference_tolerance);
             const double amplification = 1 + sensitivity<theory>(pulse, point, exact);
@@ -168,7 +168,7 @@ TEST(Methods, MissNoImpactNextToAGraze)
         if (traits_of(pulse).half_turns == 1) {
             return; // a push to one side only: no block comes down before it ends
         }
-        for (const PulseGraze& graze : grazes<theory>(pulse, generator, 6)) {
+        for (const PulseGraze& graze : grazes<theory>(pulse, generator, 4)) {
             for (const double offset : {1e-3, 1e-5, 1e-7}) {
                 for (const double amplitude :
                      {graze.low * (1 - offset), graze.high * (1 + offset)}) {

@@ -87,7 +87,7 @@ TEST(History, ThatDoublesCannotFollowHasTheSettledRegionAndUnknownTimes)
 TEST(History, ThatDoublesCanFollowHasTheRegionOfTheSpectrum)
 {
     std::mt19937_64 generator(8);
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 120; ++i) {
         const RecordPoint drawn = random_record_point(generator, 150, Directions::horizontal);
         Scene scene;
         scene.motion = Suite{{std::make_shared<const Accelerogram>(drawn.record)}};

@@ -139,7 +139,7 @@ TEST(VariedQuantity, HasNoMoreFlipsInTenTimesSmallerSteps)
     std::mt19937_64 generator(17);
     std::uniform_real_distribution<double> uniform(0, 1);
     int flips = 0;
-    for (int i = 0; i < 240; ++i) { // of 4000 lines, with 3759 flips, none misses one
+    for (int i = 0; i < 150; ++i) { // of 4000 lines, with 3759 flips, none misses one
         const auto& [name, first, last] = all_extents[i % std::size(all_extents)];
         const Quantities given =
             block_without(name, generator) +
@@ -153,7 +153,7 @@ TEST(VariedQuantity, HasNoMoreFlipsInTenTimesSmallerSteps)
         EXPECT_EQ(found, flips_in(Axis(AxisRange{first, last, 4001}).values())) << name << " " << i;
         flips += int(found);
     }
-    EXPECT_GT(flips, 150);
+    EXPECT_GT(flips, 90);
 }
 
 TEST(VariedQuantity, OfABlockThatMaySlipHasTheVerdictsOfSingleBlocks)

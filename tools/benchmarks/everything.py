@@ -28,7 +28,9 @@ BENCHMARKS = tuple(f"tools/bench {command}" for command in (
     "records --uncertain --record $OVERTURN_RECORDS/WTMC.V2A --components 1 2 3",
     "records --uncertain --record $OVERTURN_RECORDS/APEEL2_43.smc", "records --museum", "sliding", "estimates", "scale",
     "fill", "fill --audit 0 --sides 4096 16384", "picture")) + tuple(
-    f"build/overturn accuracy jobs/{job}.toml --points 1000000 -o {job}.h5" for job in ("figure_07a", "figure_11a"))
+    f"build/overturn accuracy jobs/{job}.toml --points {points} -o {job}.h5" for job, points in (
+        ("figure_07a", "1000000"), ("figure_11a", "1000000"), ("sliding", "16384 --digits 1000"),
+        ("synthetic", "16384 --digits 100")))
 CHECKS = (
     *(f"tools/check {command}" for command in ("verdicts", "record_verdicts", "sliding", "fill", "scale", "faults 1000",
                                                "fuzz 60", "slurm", "sanitize", "web")),

@@ -23,6 +23,13 @@ std::string strength_text(const std::optional<double>& pga, double end)
                : fmt::format("above {:.4g}", end);
 }
 
+/// Three digits, and all of those before the point.
+std::string millimetres(double metres)
+{
+    const double length = 1000 * metres;
+    return length < 999.5 ? fmt::format("{:.3g} mm", length) : fmt::format("{:.0f} mm", length);
+}
+
 /// A column of the printed table.
 struct PrintedColumn {
     std::string format; ///< of its cells
@@ -83,9 +90,8 @@ std::vector<PrintedColumn> printed_columns(const Job& job, const std::vector<Obj
         add_strength("median", &ObjectAnswer::median);
     }
     if (has_strength && may_slip) {
-        add("{:>11}", "slide", [](const ObjectAnswer& answer) -> std::string {
-            return std::isnan(answer.slide) ? "unknown"
-                                            : fmt::format("{:.3g} mm", 1000 * answer.slide);
+        add("{:>12}", "slide", [](const ObjectAnswer& answer) -> std::string {
+            return std::isnan(answer.slide) ? "unknown" : millimetres(answer.slide);
         });
     }
     add("{}", "  note", [&job](const ObjectAnswer& answer) {
