@@ -76,6 +76,7 @@ def run_blocks(python):
         shutil.rmtree(folder, ignore_errors=True)
         shutil.copytree(CHECKOUT, folder, ignore=shutil.ignore_patterns(".git", "build*", "results", "gallery"))
         (folder / "build").symlink_to(CHECKOUT / "build")
+        result = None
         for language, line, text in blocks_of(page):
             if language == "printed" and result:
                 failed += [f"{page}:{line}: not printed by the previous block: {missing}"
@@ -89,6 +90,7 @@ def run_blocks(python):
             exception = next((key for key in NOT_RUN if key[0] == page and text.startswith(key[1])), None)
             if exception:
                 unused.discard(exception)
+                result = None
                 continue
             count += 1
             began = time.monotonic()
