@@ -75,9 +75,9 @@ within the search and in none of the ranges are safe, except for very narrow ran
 missed. "34 % of 0.6 to 0.7 g" stands for several ranges. The search ends at --pga-max, or where the
 vertical motion cancels gravity. g is 9.81 m/s2, unless --set scene.gravity=... changes it. Values
 that are probably in another unit cause a warning. If a record is the motion of a floor
-(--set scene.motion_of=floor, unless its file states this), all accelerations are those of the
-floor, from its peak floor acceleration (PFA). The exit code is 0 whatever the verdict. Spectra and
-suites of records need a job file: see overturn run.
+(--set scene.motion_of=floor, unless its file states this), all accelerations are peak floor
+accelerations (PFA). The exit code is 0 whatever the verdict. For several objects or records see
+overturn assess; spectra need a job file, see overturn run.
 
 --vary QUANTITY FIRST LAST searches, instead of the accelerations, the values of a quantity of the
 block, or of its restitution, at the strength given by --pga or --scale: it prints the values at

@@ -216,7 +216,7 @@ def read_arguments(argv):
                        help="draw what stands, what topples and what is unknown: undecided, or not computed")
     shown.add_argument("--field", metavar="NAME",
                        help="draw the values of a field of the file, such as peak; as curves if only one axis varies, "
-                            "or if the other one has at most 6 values")
+                            "or if one of two has at most 6 values and the other more than 8")
     parser.add_argument("--boundary", metavar="BOUNDARY.h5",
                         help="overlay the flips of the verdict; written by overturn boundary")
     parser.add_argument("--practice", action="store_true",
