@@ -134,7 +134,7 @@ export const texts = {
         stays: "It is not lifted and does not slide.",
         rocks: "It rocks up to {percent} % of the angle at which it would balance on its edge.",
         rocks_over: "It rocks up to {percent} % of the angle at which it would balance on its edge: it was beyond " +
-            "balance, and the moving ground caught it.",
+            "balance, and the motion of the ground brought it back.",
         falls: "It falls over.",
         slides: "It slides: it ends {end} mm from where it stood, at most {most} mm on the way.",
         slides_back: "It slides up to {most} mm and ends where it stood.",

@@ -117,7 +117,7 @@ std::string widths_text(const std::string& name, const Scene& scene, const Least
     }
     const double step = step_of_search(scene, {&quantity("width"), widths.width, widths.end});
     return fmt::format(
-        "{} is {:.4g} m wide. {}, as searched up to {:.4g} m in steps of {:.1g} m, and "
+        "{} is {:.4g} m wide. {}, as searched up to {:.4g} m in steps of {:.2g} m, and "
         "finer ones near the result: single widths between them may topple.",
         name, widths.width,
         parts.empty() ? "No wider one is known to stand"
