@@ -35,7 +35,6 @@ def rock(found, x_azimuth=None):
                           bbox={"boxstyle": "circle,pad=0.15", "facecolor": "white", "edgecolor": LINE})
     axes = ("x [m]", "y [m]") if x_azimuth is None else ("east [m]", "north [m]")
     plan.set(aspect="equal", xlabel=axes[0], ylabel=axes[1], title="Plan, from the centre of mass")
-    figure.legend(fontsize=8, loc="lower center", ncols=5)
     around = np.radians(np.arange(0, 360.25, 0.25))
     if x_azimuth is not None:
         polar.set_theta_zero_location("N")
@@ -44,8 +43,10 @@ def rock(found, x_azimuth=None):
     def shown(azimuths):
         return azimuths if x_azimuth is None else math.radians(x_azimuth) - azimuths
     polar.plot(shown(around), np.degrees(found.slenderness(around)), color=LINE)
-    polar.plot(shown(found.edges()), np.degrees(found.slenderness(found.edges())), "o", color=LINE, markersize=4)
+    polar.plot(shown(found.edges()), np.degrees(found.slenderness(found.edges())), "D", color=LINE, markersize=4,
+               label="planes across the edges")
     polar.plot([shown(azimuth)] * 2, [0, math.degrees(least)], color=WEAKEST, linewidth=2)
     polar.set_ylim(0)
+    figure.legend(fontsize=8, loc="lower center", ncols=6)
     polar.set_title(f"alpha [degree], least {math.degrees(least):.1f}\ntowards {towards(azimuth, x_azimuth)}")
     return plan, polar
