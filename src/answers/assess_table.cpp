@@ -32,7 +32,7 @@ std::string worst_motion(const Job& job, const ObjectAnswer& answer)
                : "";
 }
 
-/// The row of an object: the columns of the table, then those of the answer.
+/// The row of an object: the columns of the table, its name or number, and those of the answer.
 Json row_of(const Job& job, const ObjectAnswer& answer)
 {
     Json row;
@@ -40,6 +40,9 @@ Json row_of(const Job& job, const ObjectAnswer& answer)
         const auto i = std::size_t(answer.row);
         row[column.name] =
             column.texts.empty() ? if_finite(column.numbers[i]) : Json(column.texts[i]);
+    }
+    if (!row.contains("object")) {
+        row["object"] = name_of_object(*job.blocks, answer.object);
     }
     const bool has_strength = answer.verdict.has_value();
     row["lifts_from"] = if_finite(answer.lifting_pga);

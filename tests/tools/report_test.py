@@ -87,6 +87,12 @@ class TestReport(InAFolder):
         answers["least_widths"] = None
         self.assertNotIn("m wide", "".join(self.page(answers).text))
 
+    def test_numbers_objects_without_a_name_as_in_the_table(self):
+        answers = self.answers("--period", "0.5", "--pga", "0.4", table="width,height\n0.4,1.6\n0.3,1.5\n")
+        page = self.page(answers)
+        self.assertEqual([row[0] for row in page.rows if row], ["object 2", "object 1"])
+        self.assertIn("Object 2 is 0.3 m wide. ", " ".join("".join(page.text).split()))
+
     def test_never_shows_what_is_unknown_as_safe(self):
         answers = self.answers("--period", "0.5", "--pga", "0.4")
         answers["objects"][1].update(verdict="undecided", undecided_from=0.3, peak_of_alpha=None, slide=None)

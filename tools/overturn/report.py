@@ -33,6 +33,7 @@ A table is passed to overturn assess with all options but -o; overturn assess --
 MOST_BARS = 60
 MADE_BY = "<!-- a report of overturn -->"
 RANKS = ("topples", "undecided", "rocks and slides", "rocks", "slides", "stands", None)
+TEXTS = ("object", "verdict", "worst_motion", "note")  # of the answers, not of the table
 ASSUMPTIONS = (
     "Each object is rigid, stands free on a rigid base, and moves in one vertical plane; it does not break.",
     "The restitution at impacts is that of the table or, without it, the largest one, r_max, of a block that does not "
@@ -84,7 +85,7 @@ in at least one of up to {{ most_cases }} cases (motions, periods and directions
 {% if widths %}<p>{{ widths.object }} is {{ '%.4g'|format(widths.width) }} m wide. {% if widths.all %}With more width and all else
 equal, it stands from {{ widths.all|width }} m{% if widths.cases > 1 %} in all cases{% endif %}{% if widths.most %}, from {{
 widths.most|width }} m in {{ widths.most_cases }} of {{ widths.cases }}{% endif %}{% else %}No wider one is known to stand in all cases{% endif %}, as searched up
-to {{ '%.4g'|format(widths.end) }} m in steps of {{ '%.1g'|format(widths.step) }} m: single widths between them may topple. Allow a
+to {{ '%.4g'|format(widths.end) }} m in steps of {{ '%.2g'|format(widths.step) }} m: single widths between them may topple. Allow a
 margin.</p>{% endif %}
 {% else %}<p>None of {{ objects|length }} objects is found to topple.{% if undecided %} Some are undecided, see below.{% endif %}</p>
 {% endif %}
@@ -166,17 +167,16 @@ def slide(row):
 
 def titles_of(rows):
     """Returns what people call the objects: the column `azimuth_of`, the column `name`, the first column of texts, or
-    the number of the row, in this order."""
-    own = ("verdict", "note")
-    text = next((key for key in ("azimuth_of", "name", *rows[0]) if key not in own and isinstance(rows[0].get(key), str)), None)
-    return [str(row[text]) if text else f"object {i + 1}" for i, row in enumerate(rows)]
+    the number of the row in the table, in this order."""
+    text = next((key for key in ("azimuth_of", "name", *rows[0]) if key not in TEXTS and isinstance(rows[0].get(key), str)), None)
+    return [str(row[text]) if text else f"object {row['object']}" for row in rows]
 
 
 def descriptions_of(rows):
     """Returns what else the table says of the objects: the other texts, and the size."""
     def describe(row):
         texts = [value for key, value in row.items()
-                 if key not in ("verdict", "note", "title") and isinstance(value, str) and value != row["title"]]
+                 if key not in (*TEXTS, "title") and isinstance(value, str) and value != row["title"]]
         size = [f"{row['width']:g} m x {row['height']:g} m"] if row.get("width") and row.get("height") else []
         return ", ".join([*filter(None, texts), *size])
     return [describe(row) for row in rows]
@@ -237,7 +237,8 @@ def widths_of(answers):
         return None
     values = least["safe_from"]
     most = math.floor(0.9 * len(values))
-    return {"object": least["object"], "width": least["width"], "end": least["end_of_search"], "step": least["step_of_search"], "cases": len(values),
+    name = f"Object {least['object']}" if least["object"].isdigit() else least["object"]
+    return {"object": name, "width": least["width"], "end": least["end_of_search"], "step": least["step_of_search"], "cases": len(values),
             "all": values[-1], "most": values[most - 1] if 0 < most < len(values) else None, "most_cases": most}
 
 
