@@ -154,7 +154,8 @@ void add_check_arguments(CLI::App& command, CheckOptions& options)
 {
     add_job_arguments(command, options.run.job);
     add_output(command, options.run);
-    command.add_flag("--boundary", options.run.boundary, "Estimate overturn boundary, not overturn run");
+    command.add_flag("--boundary", options.run.boundary,
+                     "Estimate overturn boundary, not overturn run");
     add_count(command, "--ranks", options.ranks, CLI::Range(1, 1000000),
               "Number of ranks, each on a core of its own");
     command.add_flag("--json", options.json, for_programs);
