@@ -237,7 +237,7 @@ std::vector<std::string> notes_on(const Job& job)
     const std::vector<std::string> free_fall = free_fall_lines(job);
     lines.insert(lines.end(), free_fall.begin(), free_fall.end());
     if (const std::string names = unused_columns(job); !names.empty()) {
-        lines.push_back("columns without effect: " + names);
+        lines.push_back("columns not used in the computation: " + names);
     }
     return lines;
 }

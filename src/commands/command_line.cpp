@@ -521,7 +521,7 @@ Command read_command_line(int argc, const char* const* argv)
         app.exit(asked, answer);
         return to_print(answer.str());
     } catch (const CLI::ExtrasError& error) {
-        throw Error(exit_code::usage, "{}{}\nRun with --help for more information.", error.what(),
+        throw Error(exit_code::usage, "{}.{}\nRun with --help for more information.", error.what(),
                     advice_on_unknown_option(app, given));
     } catch (const CLI::ParseError& error) {
         throw Error(exit_code::usage, "{}{}\nRun with --help for more information.", error.what(),

@@ -141,9 +141,9 @@ class TwoSides(Scratch):
         (self.folder / "blocks.csv").write_text("width,height,centre_offset,lean,restitution\n0.5,2,0.1,4,0.8\n")
         (self.folder / "table.toml").write_text(
             'scene.pulse = "one_sine"\nblocks.table = "blocks.csv"\nplane = { pulse_period = 0.5, pga = 0.3 }\n')
-        self.assert_exit(self.overturn("check", "table.toml"), 0, "centre_offset, lean: stored, without effect")
+        self.assert_exit(self.overturn("check", "table.toml"), 0, "centre_offset, lean: stored, not used in the computation")
         self.assert_exit(self.overturn("run", "table.toml", "-o", "table.h5"), 0,
-                         "columns without effect: centre_offset, lean")
+                         "columns not used in the computation: centre_offset, lean")
 
     def test_warn_of_columns_that_are_keys_of_the_motion(self):
         for column in ("pulse", "cycles", "gravity", "theory", "scale", "motion", "damping_remark"):

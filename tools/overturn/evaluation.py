@@ -45,7 +45,7 @@ def evaluate(*, fields=("region", "status", "peak", "margin"),
     A pulse:
         pulse: its kind, by default "one_sine"; window, cycles, gamma, nu: numbers that complete some kinds, see
             docs/jobs.md.
-        shape: instead of these, the rows (time over the period, value) of a pulse that is straight between them, of the
+        shape: instead of these, the rows (time over the period, value) of a pulse that is linear between them, of the
             shape (n, 2); the values are divided by the largest absolute one.
     Or a record:
         record: horizontal accelerations, one-dimensional, linear between samples; an array, what read_record() or

@@ -183,7 +183,7 @@ export const texts = {
         time: "Time",
         time_value: "{time} s, tilt {angle} degrees",
         reduced: "The ground moves {factor} times as far as drawn.",
-        frame: "The picture follows the final position of the ground.",
+        frame: "Displacements are relative to the final position of the ground.",
         slow_parts: "Of the motion of the ground, slow parts are not drawn.",
         shortened: "The motion goes on after the end of the drawing.",
         uncertain: "The motion is so sensitive that its end may differ from what is drawn; the verdict is computed " +

@@ -150,7 +150,7 @@ void print_job(const Job& job)
         print_row("slip", sliding_line(job));
     }
     if (const std::string names = unused_columns(job); !names.empty()) {
-        print_row("columns", names + ": stored, without effect");
+        print_row("columns", names + ": stored, not used in the computation");
     }
     print_row(name_of(job.problem.scene.motion_of), ground_line(job));
     for (const std::string& line : free_fall_lines(job)) {

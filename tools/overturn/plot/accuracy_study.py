@@ -23,7 +23,7 @@ METHODS = ("rk45", "taylor")  # as numbered in the file
 COLOURS = {"rk45": "#1b6ca8", "taylor": "#c8422b"}
 MARKERS = {"rk45": "o", "taylor": "s"}
 QUANTILE = 0.99
-ERRORS = {"margin_error": "error of the margin", "slide_error": "error of the slide"}
+ERRORS = {"margin_error": "error of the margin", "slide_error": "error of the slide over R"}
 
 
 class Curve:

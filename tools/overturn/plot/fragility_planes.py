@@ -9,7 +9,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.patches import Patch, Rectangle
 from overturn.captions import escaped
 from overturn.plot.fragility_curves import COLOURS, TEXT_WIDTH, TITLE_WIDTH, counts_text, measure_text, share_text
-from overturn.plot.headings import LINE, POINTS, wrapped
+from overturn.plot.headings import LINE, POINTS, place_legend_above, wrapped
 from overturn.ticks import name_ticks
 
 SHARES = {0.16: "--", 0.5: "-", 0.84: "-."}
@@ -51,7 +51,7 @@ def draw_panel(ax, plane):
     ax.set_ylabel(measure_text(plane.y, plane.y_units))
     ax.set_title("\n".join(wrapped(counts_text([plane]), 9, TITLE_WIDTH)), fontsize=9)
     if handles:
-        ax.legend(handles=handles, fontsize=8, loc="lower left")
+        place_legend_above(ax, 4, handles)
     return ax
 
 

@@ -6,6 +6,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextPath
 
 POINTS = 72  # per inch
+LEGEND = 8  # size of the font of a legend [points]
 LINE = 1.3  # height of a line over the size of the font
 
 
@@ -27,6 +28,14 @@ def wrapped(text, size, width, separator=""):
                 lines.append("")
             lines[-1] += piece if lines[-1] else piece.lstrip()
     return lines
+
+
+def place_legend_above(ax, columns, handles=None):
+    """Places the legend of axes between them and their title, where it hides nothing."""
+    handles = ax.get_legend_handles_labels()[0] if handles is None else handles
+    rows = -(-len(handles) // columns) * max(handle.get_label().count("\n") + 1 for handle in handles)
+    ax.legend(handles=handles, fontsize=LEGEND, ncols=columns, loc="lower center", bbox_to_anchor=(0.5, 1), frameon=False)
+    ax.set_title(ax.get_title(), fontsize=ax.title.get_fontsize(), pad=6 + rows * 1.6 * LEGEND)
 
 
 class Heading:

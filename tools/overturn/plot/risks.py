@@ -17,7 +17,7 @@ from overturn.motion_words import variable_of_ground
 from overturn.output_file import save
 from overturn.plot.logic_trees import branches
 from overturn.plot.fragility_curves import BAND, COLOURS, POINT, draw_bins, measure_text
-from overturn.plot.headings import wrapped
+from overturn.plot.headings import place_legend_above, wrapped
 from overturn.ranges import confidence, table, text_of
 from overturn.result_curves import add_curve_arguments, compute_curve, open_dataset
 from overturn.ticks import name_ticks
@@ -100,7 +100,7 @@ def draw_fragility(ax, hazard, fragility):
         what = f"{f'one of the {several}' if fragility.together else one} {fragility.exceedance.verb()}"
     ax.set(ylim=(-0.03, 1.03), ylabel="probability")
     ax.set_title(f"fragility: {what}", fontsize=9)
-    ax.legend(fontsize=8, loc="upper left")
+    place_legend_above(ax, 4)
 
 
 def draw_contributions(ax, found):
