@@ -312,7 +312,7 @@ std::string slide_text(double slide, double slide_peak, const std::optional<doub
         return "how far it slides is unknown";
     }
     if (slide_peak == 0) {
-        return "does not slip here";
+        return "does not slip";
     }
     const bool returns = std::abs(slide) < 1e-6 * slide_peak;
     return fmt::format("slides {}, at most {} away",

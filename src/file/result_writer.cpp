@@ -37,6 +37,7 @@ struct ResultWriter::Open {
     Handle file;
     std::vector<StoredField> fields;
     Handle checksums;
+    std::uint64_t seed;   ///< see seed_of_checksums()
     Handle audit_checked; ///< only if the spectrum is filled
     Handle audit_wrong;
     bool is_filled;
@@ -241,6 +242,9 @@ ResultWriter::ResultWriter(const std::string& path, MPI_Comm communicator, const
         if (stat(path.c_str(), &open_->as_opened) != 0) {
             throw hdf5::Hdf5Error(system_reason(errno));
         }
+        const std::vector<char> job =
+            read_all<char>(open(layout::job_resolved), open_->as_opened.st_size);
+        open_->seed = seed_of_checksums({job.data(), job.size()});
     } catch (const hdf5::Hdf5Error& error) {
         refuse_to_open(path, error.what());
     }
@@ -276,7 +280,8 @@ void ResultWriter::reset(const Tile& tile)
 void ResultWriter::write(const Tile& tile, const TileFields& fields)
 {
     const auto audit = open_->is_filled ? std::optional(fields.audit) : std::nullopt;
-    open_->store(tile, fields, tile_checksum(fields.values, audit));
+    open_->store(tile, fields,
+                 tile_checksum(fields.values, open_->seed + std::uint64_t(tile.number), audit));
 }
 
 void ResultWriter::close()

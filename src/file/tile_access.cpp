@@ -100,12 +100,17 @@ FieldValues read_chunk(const StoredField& stored, const Tile& tile, const Shape&
 
 static_assert(std::endian::native == std::endian::little, "values are hashed as they are stored");
 
-std::uint64_t tile_checksum(const std::vector<FieldValues>& fields,
+std::uint64_t seed_of_checksums(std::string_view resolved_job)
+{
+    return XXH64(resolved_job.data(), resolved_job.size(), 0);
+}
+
+std::uint64_t tile_checksum(const std::vector<FieldValues>& fields, std::uint64_t seed,
                             const std::optional<AuditCount>& audit)
 {
     const std::unique_ptr<XXH64_state_t, decltype(&XXH64_freeState)> state(XXH64_createState(),
                                                                            XXH64_freeState);
-    XXH64_reset(state.get(), 0);
+    XXH64_reset(state.get(), seed);
     for (const FieldValues& field : fields) {
         std::visit(
             [&](const auto& values) {

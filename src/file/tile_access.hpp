@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace overturn {
@@ -64,10 +65,14 @@ FieldValues read_chunk(const StoredField& stored, const Tile& tile, const Shape&
 
 inline constexpr std::uint64_t not_computed_checksum = 0;
 
-/// xxHash64, seed 0, over the values of the tile as stored (little endian), field by field in the
-/// given order, and over the counts of the audit if the tile is filled. A hash of 0 becomes 1,
-/// since 0 means "not computed".
-std::uint64_t tile_checksum(const std::vector<FieldValues>& fields,
+/// The seed of the checksum of tile 0, from the text of the job with all defaults: tiles of another
+/// job do not fit. 0 in files of the former format.
+std::uint64_t seed_of_checksums(std::string_view resolved_job);
+
+/// xxHash64 over the values of the tile as stored (little endian), field by field in the given
+/// order, and over the counts of the audit if the tile is filled. The seed is that of tile 0 plus
+/// the number of the tile. A hash of 0 becomes 1, since 0 means "not computed".
+std::uint64_t tile_checksum(const std::vector<FieldValues>& fields, std::uint64_t seed,
                             const std::optional<AuditCount>& audit = std::nullopt);
 
 /// Writes into a dataset of one number per tile, such as the checksums.

@@ -28,8 +28,10 @@ void add_checksums(hid_t file, const TileLayout& tiles)
     const Handle dataset =
         add_numbers(file, layout::checksum, {along}, "checksum of the tile, 0 if not computed");
     write_attribute(dataset, "algorithm",
-                    fmt::format("xxHash64, seed 0, over the stored values of the tile, field by "
-                                "field in the order of the variables{}; a hash of 0 is stored as 1",
+                    fmt::format("xxHash64 over the stored values of the tile, field by field in "
+                                "the order of the variables{}; its seed is the xxHash64, seed 0, "
+                                "of job_resolved, plus the number of the tile; a hash of 0 is "
+                                "stored as 1",
                                 tiles.is_filled ? ", audit_checked and audit_wrong" : ""));
     write_attribute(dataset, "numbering",
                     "tiles are boxes of tile_shape, smaller at the far edges, in the order of "

@@ -133,25 +133,31 @@ struct Limit {
     bool applies = true;
 };
 
-/// Refuses the first corner beyond a limit.
+/// Refuses the first corner beyond a limit: the block, if only the table of blocks says which one
+/// it is.
 void expect_within(const Limit& limit, const Coordinates& coordinates, const Grid& corners)
 {
-    const auto cause = std::ranges::find_if(
+    const auto given = std::ranges::find_if(
         limit.causes, [&](std::string_view name) { return corners.find(name) != nullptr; });
-    if (!limit.applies || cause == limit.causes.end() || !coordinates.has(limit.coordinate)) {
+    if (!limit.applies || given == limit.causes.end() || !coordinates.has(limit.coordinate)) {
         return;
     }
+    constexpr std::string_view shape[] = {"width", "half_width", "slenderness", "slenderness_plus"};
+    const auto of_block = std::ranges::find_if(
+        shape, [&](std::string_view name) { return corners.has_table_column(name); });
+    const std::string_view cause =
+        corners.has_table_column(*given) || of_block == std::end(shape) ? *given : *of_block;
     const std::vector<std::size_t> dimensions =
-        coordinates.dimensions_of_any({limit.coordinate, *cause});
+        coordinates.dimensions_of_any({limit.coordinate, cause});
     const std::vector<double> values = coordinates.along(dimensions, limit.coordinate);
     const auto beyond = std::ranges::find_if_not(values, limit.interval.contains);
     if (beyond == values.end()) {
         return;
     }
     const auto place = beyond - values.begin();
-    throw GivenError(corners.row_of_table(*cause, dimensions, place), *cause,
+    throw GivenError(corners.row_of_table(cause, dimensions, place), cause,
                      fmt::format(" = {}: {} = {} is outside {}. {}",
-                                 coordinates.along(dimensions, *cause)[std::size_t(place)],
+                                 coordinates.along(dimensions, cause)[std::size_t(place)],
                                  limit.coordinate, *beyond, limit.interval.text, limit.advice));
 }
 

@@ -280,6 +280,11 @@ class Assess(Scratch):
                 self.write_table(table)
                 self.assert_exit(self.overturn("assess", "objects.csv", "--period", "0.5"), 65, words)
 
+    def test_names_the_object_that_it_refuses(self):
+        self.write_table("name,width,height\nA,0.6,1.8\nB,1.8,0.6\n")
+        self.assert_refused(65, ["objects.csv:3:2: width = 1.8: slenderness = 1.249", "r_max is defined only"],
+                            "assess", "objects.csv", "--period", "0.5")
+
     def test_refuses_what_it_cannot_use(self):
         self.write_table(TABLE)
         for options, code, words in (

@@ -35,6 +35,20 @@ class ADamagedFile(Scratch):
                          "the checksums of 3 of 24 finished tiles do not match (tile numbers: 0, 7, 23)",
                          "overturn run JOB.toml -o whole.h5")
 
+    def test_has_tiles_of_another_place_or_job_although_their_checksums_came_with_them(self):
+        with h5py.File(self.folder / "whole.h5", "r+") as file:
+            for dataset in (each for each in file.values() if len(getattr(each, "shape", ())) == 4):
+                first, second = dataset[0, 0, :64, :64], dataset[0, 0, :64, 64:128]
+                dataset[0, 0, :64, :64], dataset[0, 0, :64, 64:128] = second, first
+            file["run/checksum"][:2] = file["run/checksum"][:2][::-1]
+        self.assert_exit(self.overturn("verify", "whole.h5"), 74, "2 of 24 finished tiles do not match", "numbers: 0, 1)")
+        self.assert_exit(self.overturn("run", "small.toml", "-o", "whole.h5"), 0, "2 damaged tiles to recompute")
+        self.assertEqual(checksum(self.folder / "whole.h5"), self.whole)
+        with h5py.File(self.folder / "whole.h5", "r+") as file:
+            job = file["run/job_resolved"]
+            job[:] = np.frombuffer(job[:].tobytes().replace(b"gravity = 9.81", b"gravity = 9.80"), job.dtype)
+        self.assert_exit(self.overturn("verify", "whole.h5"), 74, "24 of 24 finished tiles do not match")
+
     def test_is_not_complete_if_the_repairing_run_is_stopped(self):
         self.assert_exit(self.overturn("run", "long.toml", "-o", "long.h5", ranks=2), 0)
         with h5py.File(self.folder / "long.h5", "r+") as file:

@@ -172,7 +172,9 @@ class EqualJobs(Scratch):
             for kernel in ("double", "avx2", "avx512"):
                 output = f"{method}_{kernel}.h5"
                 result = self.overturn(*run, output, "--kernel", kernel)
-                if result.returncode == 2:  # this machine does not support it
+                if "this build has no kernel" in result.stderr:  # of a build with the native one alone
+                    continue
+                if result.returncode == 2:
                     self.assert_exit(result, 2, "this processor does not support it")
                     self.assertEqual(kernel, "avx512")
                     continue

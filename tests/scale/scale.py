@@ -230,24 +230,24 @@ def mark_as_done(plane, but):
     with h5py.File(plane.file, "r+") as file:
         marks, region = file["run/checksum"][:], file["region"]
         some = int(np.flatnonzero(marks)[0])
-        demand(checksum_of(region[(0, *plane.slices(some))]) == marks[some],
+        library = ctypes.CDLL("libxxhash.so.0")  # also used by the program
+        library.XXH64.restype = ctypes.c_uint64
+        library.XXH64.argtypes = (ctypes.c_char_p, ctypes.c_size_t, ctypes.c_uint64)
+        job = file["run/job_resolved"][:].tobytes()
+        seed = library.XXH64(job, len(job), 0)
+
+        def checksum_of(data, tile):
+            """Returns the checksum of a tile with one field, by attribute `algorithm`."""
+            return library.XXH64(data, len(data), (seed + tile) % 2**64) or 1
+        demand(checksum_of(region[(0, *plane.slices(some))].tobytes(), some) == marks[some],
                "the checksum does not match its attribute `algorithm`")
-        checksums = {}  # by shape
+        fill = {}  # by shape
         for tile in set(np.flatnonzero(marks == 0).tolist()) - set(but):
             shape = tuple(part.stop - part.start for part in plane.slices(tile))
-            if shape not in checksums:
-                checksums[shape] = checksum_of(np.full(shape, region.fillvalue, region.dtype))
-            marks[tile] = checksums[shape]
+            if shape not in fill:
+                fill[shape] = np.full(shape, region.fillvalue, region.dtype).tobytes()
+            marks[tile] = checksum_of(fill[shape], tile)
         file["run/checksum"][:] = marks
-
-
-def checksum_of(values):
-    """Returns the checksum of a tile with one field, by attribute `algorithm`."""
-    library = ctypes.CDLL("libxxhash.so.0")  # also used by the program
-    library.XXH64.restype = ctypes.c_uint64
-    library.XXH64.argtypes = (ctypes.c_char_p, ctypes.c_size_t, ctypes.c_uint64)
-    data = values.tobytes()
-    return library.XXH64(data, len(data), 0) or 1
 
 
 def places_in_file(plane, tiles):

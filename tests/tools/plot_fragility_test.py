@@ -181,6 +181,9 @@ class TestAPicture(Curve):
         text, words = self.words("friction.h5", "--friction-demand", "0.3")
         self.assertIn(f"of {supported} points with a verdict", text)
         self.assertIn("need a friction coefficient above 0.3", words)
+        text, words = self.words("friction.h5", "--friction-demand", "1e-6")
+        self.assertIn("left out: 600 of 600 points", text)
+        self.assertIn("no fit: no point has a verdict", words)
 
     def test_without_a_fit_says_why_and_draws_no_curve(self):
         self.overturn("run", "safe.h5", "plane.scale={first=0.001, last=0.002, count=2}")

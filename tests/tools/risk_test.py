@@ -232,7 +232,7 @@ class TheBounds(unittest.TestCase):
     def test_are_not_those_of_shaking_outside_the_data_which_is_mentioned(self):
         inside = np.diff([between_levels(power_law(1e-4, end), MEDIAN, BETA) for end in (0.6, 0.8)])[0]
         outside = risk.annual_rate(power_law(), risk.lognormal(MEDIAN, BETA, edges=[0.6, 0.8], unknown=[0, 0], **PGA))
-        self.assertIn(f"{100 * (1 - inside / EXACT):.2g} % of the rate is from shaking outside the data of the "
+        self.assertIn(f"{100 * (1 - inside / EXACT):.3g} % of the rate is from shaking outside the data of the "
                       "fragility, pga = 0.6 to 0.8 g", outside.summary())
         np.testing.assert_allclose(outside.rate, EXACT, rtol=2e-7)
         self.assertNotIn("outside the data", risk.annual_rate(power_law(), CURVE).summary())

@@ -143,7 +143,7 @@ def _notes(hazard, p, contribution, points, within, interval):
                      f"year if all of them are safe, {high:.4g} if all overturn")
     outside = within[1, (points[:-1] < p.data[0]) | (points[1:] > p.data[1])].sum()
     if outside > SMALL * high:
-        notes.append(f"{100 * outside / high:.2g} % of the rate is from shaking outside the data of the fragility, "
+        notes.append(f"{100 * outside / high:.3g} % of the rate is from shaking outside the data of the fragility, "
                      f"{p.im} = {p.data[0]:.4g} to {p.data[1]:.4g} {p.units}")
     return notes
 

@@ -234,10 +234,10 @@ private:
     /// The block rests between two phases; not at all if they are equal, as at the onset of a
     /// motion that lifts it at once. The friction that a record asks for is monotone between two
     /// samples.
-    [[gnu::noinline, gnu::cold]] void rest_on_contact(const Mask& at_rest, const T& first,
+    [[gnu::noinline, gnu::cold]] void rest_on_contact(const Mask& rests, const T& first,
                                                       const T& last)
     {
-        const Mask lanes = at_rest && first < last;
+        const Mask lanes = rests && first < last;
         const ContactSide<E>& side = contact_->sides().plus;
         const auto observe = [&](const T& phase, const Mask& at) {
             const auto push = estimate_of(excitation_.ground(phase));

@@ -140,7 +140,7 @@ def group_text(curve):
     is_an_object = curve.blocks == 1 and curve.kind.startswith("objects")
     count = "" if is_an_object else f" ({counted(curve.blocks, curve.kind)})"
     blocks = escaped(shortened(curve.group, 40) + count)
-    return blocks + f"\n{fit_text(curve)}" * bool(np.isfinite(curve.median))
+    return f"{blocks}\n{fit_text(curve)}" if np.isfinite(curve.median) else blocks
 
 
 def fit_text(curve):
