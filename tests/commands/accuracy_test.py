@@ -53,7 +53,7 @@ class AnAccuracyStudy(Scratch):
         result = self.tool("plot_accuracy", "slip.h5", "-o", "slip.svg")
         self.assertEqual(result.returncode, 0, result.stderr)
         picture = (self.folder / "slip.svg").read_text()
-        for words in ("error of the slide", "error of the margin"):
+        for words in ("error of the slide over R", "error of the margin"):
             self.assertIn(f">{words}, 99th percentile<", picture)
 
     def test_is_described_by_info(self):

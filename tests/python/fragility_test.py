@@ -484,7 +484,7 @@ class TheFit(unittest.TestCase):
         self.assertAlmostEqual(np.log(found.beta), log_beta, delta=1e-5)
 
     def test_has_intervals_that_contain_the_parameters_as_often_as_they_claim(self):
-        repetitions = 400
+        repetitions = 250
         truth = norm.cdf((AT - np.log(MEDIAN)) / BETA)
         hits = np.zeros(6)
 
@@ -496,8 +496,8 @@ class TheFit(unittest.TestCase):
             low, high = np.column_stack([found.median_interval, found.beta_interval, found.band, of_rate])
             true = [MEDIAN, BETA, *truth, log_rate(MEDIAN, BETA)]
             hits += (low <= true) & (true <= high)
-        # Three standard deviations of a binomial count around 380 of 400. Intervals of 90 % would contain the
-        # parameters 360 times, which is 4.6 deviations below.
+        # Three standard deviations of a binomial count around 237.5 of 250. Intervals of 90 % would contain the
+        # parameters 225 times, which is 3.6 deviations below.
         deviation = np.sqrt(repetitions * 0.95 * 0.05)
         np.testing.assert_array_less(abs(hits - 0.95 * repetitions), 3 * deviation, err_msg=f"{hits}")
 
