@@ -17,14 +17,17 @@ import reports  # noqa: E402
 
 RUN = ("100 x 100 points, rk45: 0.0438 s\nshare of rank 0: 99.74 %, 12196.2 times, 1000000 points, answer 520 ns\n"
        "8 wrong")
-PAGE = {"tools/bench run": reports.Report("2026-11-28", 63, RUN)}
+PAGE = {"tools/bench run": reports.Report("MPI          4", "2026-11-28", 63, RUN)}
 
 
 class Pages(unittest.TestCase):
     def test_a_page_is_read_as_it_was_written(self):
-        both = PAGE | {"tools/check fuzz 60": reports.Report("2026-11-29", 7, "job: 76 inputs\n\n## not a heading")}
-        self.assertEqual(reports.read(reports.written("commit       1234\nMPI          4", both)),
-                         ("commit       1234\nMPI          4", both))
+        other = reports.Report("MPI          5\nmemory       1 kB", "2026-11-29", 7, "job: 76 inputs\n\n## not a heading")
+        several = PAGE | {"tools/check fuzz 60": other, "tools/bench scale": PAGE["tools/bench run"]}
+        page = reports.written("1234", several)
+        self.assertEqual(reports.read(page), ("1234", several))
+        self.assertEqual(page.count("MPI          4"), 1)
+        self.assertEqual(reports.read("# No page"), ("", {}))
 
     def test_of_a_check_only_results_are_kept(self):
         output = ("[  0 s] 1 of 3: installing\n[1/2] Building CXX\n[ 10 s] 3 of 3: testing\n"
@@ -35,26 +38,27 @@ class Pages(unittest.TestCase):
         self.assertEqual(reports.results_of(output), "100% tests passed, 0 tests failed out of 2\n\n  800 runs\n"
                          "it finished\n  crashes within HDF5: 3\ntools/check: everything passed")
 
-    def measured(self, page, head, report, only="tools/bench run"):
-        """Measures with a command that prints a report, on the machine and commit `head`."""
-        saved = everything.machine_and_commit, everything.output_of
-        everything.machine_and_commit, everything.output_of = lambda: head, lambda command, folder: (0, report)
+    def measured(self, page, commit, report, only="tools/bench run", machine="MPI          4"):
+        """Measures with a command that prints a report."""
+        saved = everything.commit_and_machine, everything.output_of
+        everything.commit_and_machine = lambda: (commit, machine)
+        everything.output_of = lambda command, folder: (0, report)
         try:
             with contextlib.redirect_stdout(io.StringIO()):
                 everything.run(types.SimpleNamespace(output=page.parent, page=page, only=[only], checks=False))
         finally:
-            everything.machine_and_commit, everything.output_of = saved
+            everything.commit_and_machine, everything.output_of = saved
         return {name: each.text for name, each in reports.read(page.read_text())[1].items()}
 
     def test_a_second_call_replaces_or_adds_reports_and_another_commit_begins_a_new_page(self):
         with tempfile.TemporaryDirectory() as folder:
             page = pathlib.Path(folder) / "measured.md"
-            self.measured(page, "commit       1", "1 s", "tools/bench scale")
-            self.assertEqual(self.measured(page, "commit       1", "2 s"),
+            self.measured(page, "1", "1 s", "tools/bench scale")
+            self.assertEqual(self.measured(page, "1", "2 s", machine="MPI          5"),
                              {"tools/bench run": "2 s", "tools/bench scale": "1 s"})
-            self.assertEqual(self.measured(page, "commit       1", "3 s"),
+            self.assertEqual(self.measured(page, "1", "3 s"),
                              {"tools/bench run": "3 s", "tools/bench scale": "1 s"})
-            self.assertEqual(self.measured(page, "commit       2", "4 s"), {"tools/bench run": "4 s"})
+            self.assertEqual(self.measured(page, "2", "4 s"), {"tools/bench run": "4 s"})
 
 
 class Numbers(unittest.TestCase):
@@ -89,7 +93,7 @@ class Quotes(unittest.TestCase):
         self.assertEqual(len(self.errors(table.format(9))[0]), 1)
 
     def test_a_block_may_quote_several_reports_and_their_commands(self):
-        two = PAGE | {"tools/check fuzz 60": reports.Report("2026-11-29", 7, "job: 7650123 inputs")}
+        two = PAGE | {"tools/check fuzz 60": reports.Report("MPI          4", "2026-11-29", 7, "job: 7650123 inputs")}
         marker = "tools/bench run; tools/check fuzz 60"
         self.assertEqual(self.errors("7.7 million in 60 s, 8", marker, two), ([], set()))
 

@@ -54,10 +54,12 @@ def compared(command, old, new):
 
 
 def run(options):
-    (head, old), (new_head, new) = (reports.read(path.read_text()) for path in (options.old, options.new))
+    (commit, old), (new_commit, new) = (reports.read(path.read_text()) for path in (options.old, options.new))
     if not old or not new:
         fail(f"{options.new if old else options.old} contains no reports")
-    print(f"old:\n{head}\n\nnew:\n{new_head}")
+    for what, name, page in (("old", commit, old), ("new", new_commit, new)):
+        machines = dict.fromkeys(report.machine for report in page.values())
+        print("\n".join([f"{what}: commit {name}", *machines]), end="\n\n")
     wrong = []
     for command in (command for command in old if command in new):
         printed, found = compared(command, old[command].text, new[command].text)

@@ -15,10 +15,10 @@ EXPLANATION = """\
 Runs every benchmark of README.md and docs, as the documentation states it, one after another: about an hour, and the
 first time a few minutes more to build. With --checks, also the checks whose results the documentation states: about
 six hours more, as root, on Debian. Each writes its output, its JSON and its picture to a folder. Their reports are
-the sections of a page, beside the machine and the commit.
+the sections of a page, beside the commit and the machine of each.
 
-A second call at the same commit, on the same machine, replaces or adds sections, so that all can be measured in
-several calls; otherwise a new page begins. Commits that change the documentation alone do not count. Records that are
+A second call at the same commit replaces or adds sections, so that all can be measured in several calls; otherwise a
+new page begins. Commits that change the documentation alone do not count. Records that are
 not part of the sources are found in $OVERTURN_RECORDS. Do not run other programs meanwhile."""
 
 DOCUMENTATION = (":!docs", ":!*.md")
@@ -54,8 +54,8 @@ def git(*words):
     return run_or_fail(command, "git", capture_output=True).stdout.strip()
 
 
-def machine_and_commit():
-    """Lines with the last commit that changes more than the documentation, and the machine."""
+def commit_and_machine():
+    """The last commit that changes more than the documentation, and lines that describe the machine."""
     if changed := git("status", "--porcelain", "--untracked-files=no"):
         fail(f"files have changed since the last commit, which the reports would name; commit them first:\n{changed}")
     overturn = SOURCE / "build" / "overturn"
@@ -68,7 +68,7 @@ def machine_and_commit():
     cpu = pathlib.Path("/proc/cpuinfo")
     model = re.search(r"^cpu family\s*: (\d+)\nmodel\s*: (\d+)", cpu.read_text() if cpu.exists() else "", re.MULTILINE)
     about += [f"{'family':13}{model[1]}, model {model[2]}"] if model else []
-    return "\n".join([f"{'commit':13}{git('log', '-1', '--format=%h', '--abbrev=8')}", *about])
+    return git("log", "-1", "--format=%h", "--abbrev=8"), "\n".join(about)
 
 
 def output_of(command, folder):
@@ -91,9 +91,9 @@ def output_of(command, folder):
 def run(options):
     folder = options.output.resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    head = machine_and_commit()
+    commit, machine = commit_and_machine()
     before, found = reports.read(options.page.read_text()) if options.page.exists() else ("", {})
-    if before != head:
+    if before != commit:
         print(f"{options.page}: a new page", flush=True)
         found = {}
     order = BENCHMARKS + CHECKS
@@ -108,9 +108,9 @@ def run(options):
         if code:
             failed.append(command)
         elif text := reports.results_of(output):
-            found[command] = reports.Report(time.strftime("%Y-%m-%d"), round(time.monotonic() - began), text)
+            found[command] = reports.Report(machine, time.strftime("%Y-%m-%d"), round(time.monotonic() - began), text)
             found = {name: found[name] for name in (*order, *found) if name in found}
-            options.page.write_text(reports.written(head, found))
+            options.page.write_text(reports.written(commit, found))
     if failed:
         fail(f"failed: {', '.join(failed)}")
     print(f"written: {options.page} and {folder}")

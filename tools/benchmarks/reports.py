@@ -23,6 +23,7 @@ PROGRESS = re.compile("|".join((
 
 
 class Report(typing.NamedTuple):
+    machine: str  # lines
     day: str
     seconds: int  # that the command took
     text: str
@@ -37,20 +38,24 @@ def results_of(output):
     return re.sub(r"\n{3,}", "\n\n", "\n".join(kept)).strip("\n")
 
 
-def written(head, reports):
-    """The page of reports, by command, that were measured on a machine and commit, the lines of `head`."""
-    days = sorted({report.day for report in reports.values()})
-    date = days[0] if len(days) == 1 else f"{days[0]} to {days[-1]}"
-    return "\n".join((TITLE, f"```text\n{head}\ndate         {date}\n```", *(
-        f"\n## `{command}`\n\n{report.day}, {report.seconds} s\n\n```text\n{report.text}\n```"
-        for command, report in reports.items()))) + "\n"
+def written(commit, reports):
+    """The page of reports, by command, that were measured at a commit. Machines are numbered."""
+    machines = list(dict.fromkeys(report.machine for report in reports.values()))
+    head = "\n\n".join([f"commit       {commit}", *(f"machine      {i}\n{lines}" for i, lines in enumerate(machines, 1))])
+    return "\n".join((TITLE, f"```text\n{head}\n```", *(
+        f"\n## `{command}`\n\n{report.day}, machine {machines.index(report.machine) + 1}, {report.seconds} s\n\n"
+        f"```text\n{report.text}\n```" for command, report in reports.items()))) + "\n"
 
 
 def read(page):
-    """Returns the head and the reports of a page."""
-    head = re.search(r"^```text\n(.*?)\ndate .*?^```$", page, re.DOTALL | re.MULTILINE)
-    found = re.finditer(r"^## `([^`\n]+)`\n\n(\S+), (\d+) s\n\n```text\n(.*?)\n```$", page, re.DOTALL | re.MULTILINE)
-    return head[1] if head else "", {each[1]: Report(each[2], int(each[3]), each[4]) for each in found}
+    """Returns the commit and the reports of a page."""
+    head = re.search(r"^```text\ncommit +(\S+)\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+    if not head:
+        return "", {}
+    machines = dict(re.findall(r"^machine +(\d+)\n(.*?)\n$", head[2] + "\n", re.DOTALL | re.MULTILINE))
+    found = re.finditer(r"^## `([^`\n]+)`\n\n(\S+), machine (\d+), (\d+) s\n\n```text\n(.*?)\n```$", page,
+                        re.DOTALL | re.MULTILINE)
+    return head[1], {each[1]: Report(machines[each[3]], each[2], int(each[4]), each[5]) for each in found}
 
 
 SCALES = {"": (1, ""), "%": (0.01, ""), "million": (1e6, ""), "billion": (1e9, ""),
