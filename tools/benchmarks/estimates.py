@@ -44,7 +44,7 @@ REGION = 'output.fields=["region"]'
 CASES = {  # the command, the job, and settings
     "pulse, rk45": ("run", PULSE, plane(3072)),
     "pulse, taylor": ("run", PULSE, [TAYLOR, *plane(4096)]),
-    "pulse, all fields": ("run", PULSE, ['output.fields=["region", "margin", "error", "peak", "fall_time", "normal"]',
+    "pulse, six fields": ("run", PULSE, ['output.fields=["region", "margin", "error", "peak", "fall_time", "normal"]',
                                          *plane(1024)]),
     "list under pulses": ("run", LIST, counts(("pulse_period", 640), ("pga", 840))),
     "filled": ("run", PULSE, [REGION, FILLED, *plane(16384)]),
