@@ -10,6 +10,8 @@
 #include "overturn/sweep/kernel.hpp"
 #include "overturn/text/error.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -38,9 +40,13 @@ Json numbers_of(const std::string& question)
         of_direction["direction"] = directions_of(job.problem).front();
         of_direction["margin"] = value(Field::margin);
         of_direction["error"] = value(Field::error);
+        // Under a record, steps that end at samples are the same at both tolerances.
+        Problem disturbed = job.problem;
+        disturbed.scene.gravity *= 1 + 1e-13;
+        const double peak = peak_at(job.problem, most_accurate.tolerance);
         of_direction["peak_change"] =
-            if_finite(peak_at(job.problem, most_accurate.tolerance) -
-                      peak_at(job.problem, 100 * most_accurate.tolerance));
+            if_finite(std::max(std::abs(peak - peak_at(job.problem, 100 * most_accurate.tolerance)),
+                               std::abs(peak - peak_at(disturbed, most_accurate.tolerance))));
     }
     return numbers;
 }

@@ -3,8 +3,8 @@
 module in Node and by the kernels of this computer, and by the program for some of them.
 
 Verdicts must be equal wherever the bound of the error is below a tenth of the margin, peaks to 1e-9 alpha wherever the
-bound is below 1e-10 and the peak changes as little at a hundred times the tolerance: a block that comes to rest forgets the
-errors of its peak. Every question is answered or refused by both, with equal exit codes; and the memory of the module
+bound is below 1e-10 and the peak changes as little at a hundred times the tolerance, or at 1 + 1e-13 times g: a block
+that comes to rest forgets the errors of its peak. Every question is answered or refused by both, with equal exit codes; and the memory of the module
 does not grow when all questions are asked again. Exit code 1 otherwise.
 """
 
