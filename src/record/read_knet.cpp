@@ -67,8 +67,8 @@ std::vector<StatedNumber> stated_peak(const KeyedHeader& header)
 {
     const auto peak = header.find("Max. Acc.");
     const std::string_view text = peak ? peak->value : "";
-    const std::size_t end = std::min(text.find(')'), text.size());
-    const auto unit = unit_named(trimmed(text.substr(0, end).substr(text.find('(') + 1)));
+    const std::string_view before = text.substr(0, text.find(')'));
+    const auto unit = unit_named(trimmed(before.substr(before.find('(') + 1)));
     if (!unit) {
         return {};
     }

@@ -37,6 +37,15 @@ TEST(Knet, GivesCountsWithoutTheirMeanInGal)
               (Values{1.5, 2, 2.5, -1.5, 0, -0.5, 0.5, 0, 4.5, -4.5, 0, -4.5}));
 }
 
+TEST(Knet, DoesNotUseAPeakWithoutAUnit)
+{
+    for (const char* peak : {"(cm)   9.000", ")(   9.000", ") (gal)   9.000", "9.000", ""}) {
+        EXPECT_EQ(component_of(with(sound_knet, "(gal)   4.500", peak)).acceleration,
+                  component_of(sound_knet).acceleration)
+            << peak;
+    }
+}
+
 TEST(Knet, ScalesCountsByAnyScaleFactor)
 {
     const Values values = component_of(sound_knet).acceleration;
