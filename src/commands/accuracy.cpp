@@ -56,7 +56,7 @@ void print_head(const AccuracySample& sample, bool may_slip)
                     slide[1], "verdicts", "cided", "> bound", "error"));
 }
 
-void print_row(const AccuracyRow& row, const AccuracySample& sample, bool may_slip)
+void print_accuracy_row(const AccuracyRow& row, const AccuracySample& sample, bool may_slip)
 {
     const std::string name =
         fmt::format("{}{}", name_of(row.numerics.method), row.numerics.resolve ? " resolved" : "");
@@ -102,7 +102,7 @@ int accuracy(const AccuracyOptions& options)
         rows.push_back(study.measure(numerics));
         rows.back().seconds_per_point =
             seconds_of(study, numerics) / double(study.sample().grid.points());
-        print_row(rows.back(), study.sample(), may_slip);
+        print_accuracy_row(rows.back(), study.sample(), may_slip);
     }
     write_accuracy_file(options.output, job, study.sample(), rows);
     print_line(fmt::format("\n{0}: written; draw it with tools/plot_accuracy {0}", options.output));

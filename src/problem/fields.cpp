@@ -31,9 +31,6 @@ std::vector<FieldFlag> regions(bool with_no_flip)
 const std::vector<FieldFlag> region_flags = regions(false);
 const std::vector<FieldFlag> region_or_no_flip = regions(true);
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
 /// d theta / d(p t) at the end, with the p of the side plus [rad].
 double velocity(const EndOfPoint& end)
 {
@@ -49,7 +46,7 @@ double peak(const EndOfPoint& end)
 {
     const Outcome& outcome = end.outcome;
     if (!is_safe(outcome.region)) {
-        return is_unsafe(outcome.region) ? infinity : unknown;
+        return is_unsafe(outcome.region) ? infinity : unknown_value;
     }
     return with_theory(end.scene().theory, [&]<Theory theory>() {
         const double so_far = outcome.peak / end.point.block.slenderness;
@@ -64,7 +61,7 @@ double fall_time(const EndOfPoint& end)
 {
     const Outcome& outcome = end.outcome;
     if (!is_unsafe(outcome.region)) {
-        return is_safe(outcome.region) ? infinity : unknown;
+        return is_safe(outcome.region) ? infinity : unknown_value;
     }
     if (outcome.has(status::slipped)) {
         return ((outcome.phase - outcome.uplift) / end.point.frequency + outcome.fall_after) *
@@ -261,7 +258,7 @@ std::variant<std::uint8_t, std::uint16_t, std::uint32_t, double, float> fill_val
     if (field.precision == Precision::single_precision) {
         return std::numeric_limits<float>::quiet_NaN();
     }
-    return unknown;
+    return unknown_value;
 }
 
 FieldValues not_computed(Field field, std::int64_t points)

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -25,6 +24,7 @@ struct PlausibleRange {
     std::string_view advice;
 };
 
+namespace plausible {
 constexpr PlausibleRange slenderness{"alpha", " degrees", 0, 180 / std::numbers::pi,
                                      "a block wider than 1.5 times its height; angles are in "
                                      "radians"};
@@ -47,9 +47,10 @@ constexpr PlausibleRange peak{"the peak of a component of a record", " g", 0.001
 constexpr PlausibleRange time_step{"the time step of a record", " s", 1e-4, 0.5,
                                    "times are in seconds"};
 constexpr PlausibleRange vertical_mean{
-    "the mean of a vertical record", " g", -std::numeric_limits<double>::infinity(), 0.3,
+    "the mean of a vertical record", " g", -infinity, 0.3,
     "remove gravity from the record of a sensor that measures it"};
 constexpr PlausibleRange gravity{"gravity", " m/s2", 1.5, 30, "it is g in m/s2"};
+} // namespace plausible
 
 /// What is implausible about these values, as one text; empty if nothing is. one_is_enough: whether
 /// some of the values may be implausible.
@@ -160,9 +161,9 @@ void judge_records(const Scene& scene, Findings& findings)
         means.push_back(record->upwards_mean());
         time_steps.push_back(record->time_step());
     }
-    findings.push_back(finding_about(vertical_mean, extent_of(means)));
-    findings.push_back(finding_about(peak, extent_of(peaks)));
-    findings.push_back(finding_about(time_step, extent_of(time_steps)));
+    findings.push_back(finding_about(plausible::vertical_mean, extent_of(means)));
+    findings.push_back(finding_about(plausible::peak, extent_of(peaks)));
+    findings.push_back(finding_about(plausible::time_step, extent_of(time_steps)));
 }
 
 void judge_directions(const Grid& grid, const Coordinates& coordinates, Findings& findings)
@@ -199,7 +200,7 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
     const Grid corners = corners_of(grid);
     const Coordinates coordinates(scene, corners);
     Findings findings;
-    findings.push_back(finding_about(gravity, {scene.gravity, scene.gravity}));
+    findings.push_back(finding_about(plausible::gravity, {scene.gravity, scene.gravity}));
     // Values that follow from a dimensionless axis may be implausible in part.
     const auto judge = [&](const PlausibleRange& range, std::string_view name,
                            std::string_view dimensionless = "", double unit = 1) {
@@ -211,20 +212,20 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
         }
     };
     for (const std::string_view name : {"slenderness", "slenderness_plus", "slenderness_minus"}) {
-        judge(slenderness, name, "", std::numbers::pi / 180);
+        judge(plausible::slenderness, name, "", std::numbers::pi / 180);
     }
     for (const std::string_view name : {"size", "size_plus", "size_minus"}) {
-        judge(size, name);
+        judge(plausible::size, name);
     }
-    judge(gyration, "gyration_over_size");
-    judge(friction, "friction");
+    judge(plausible::gyration, "gyration_over_size");
+    judge(plausible::friction, "friction");
     if (grid.may_slip() && scene.has_two_components()) {
         findings.emplace_back(
             "the slip is computed in the plane of the direction only, without the "
             "motion across it");
     }
-    judge(grid.find("size_plus") != nullptr ? implied_incline : incline, "incline", "",
-          std::numbers::pi / 180);
+    judge(grid.find("size_plus") != nullptr ? plausible::implied_incline : plausible::incline,
+          "incline", "", std::numbers::pi / 180);
     if (coordinates.has("center_height") && coordinates.has("half_height")) {
         const double highest = extent_of(coordinates.of("center_height").values).last;
         const double height = 2 * extent_of(coordinates.of("half_height").values).last;
@@ -234,7 +235,7 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
                                                            "high (lengths are in metres)",
                                                            highest, height));
     }
-    judge(period, "pulse_period", "frequency");
+    judge(plausible::period, "pulse_period", "frequency");
     const bool has_metres = coordinates.has("size") || coordinates.has("size_plus");
     if (has_metres && grid.find("amplitude") != nullptr) {
         const Extent amplitude = extent_of(coordinates.of("amplitude").values);
@@ -246,7 +247,7 @@ std::string implausible_values(const Scene& scene, const Grid& grid)
                               "in g are given as pga)",
                               amplitude.text("")));
     }
-    judge(acceleration, "pga", scene.motion_traits().amplitude);
+    judge(plausible::acceleration, "pga", scene.motion_traits().amplitude);
     judge_records(scene, findings);
     findings.push_back(finding_about_restitution(coordinates, grid.table() != nullptr));
     judge_directions(grid, coordinates, findings);

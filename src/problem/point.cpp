@@ -36,8 +36,7 @@ double pga_of_unit(const Scene& scene, const Point& point)
 double free_fall_amplitude(const Scene& scene, const Point& point)
 {
     const auto records = scene.records();
-    return records.empty() ? std::numeric_limits<double>::infinity()
-                           : records[std::size_t(point.record)]->free_fall_scale();
+    return records.empty() ? infinity : records[std::size_t(point.record)]->free_fall_scale();
 }
 
 namespace {
@@ -59,7 +58,7 @@ double pga_at(UpliftThresholds thresholds, const Scene& scene, const Point& poin
     const LobeAmplitudes<double> lobes =
         largest_lobes(pulse_motion<double>(pulse->kind, pulse->shape));
     const auto lifting = [](double threshold, double lobe) {
-        return lobe > 0 ? threshold / lobe : std::numeric_limits<double>::infinity();
+        return lobe > 0 ? threshold / lobe : infinity;
     };
     return std::min(lifting(thresholds.minus, lobes.positive),
                     lifting(thresholds.plus, lobes.negative));
@@ -72,7 +71,7 @@ double lifting_pga(const Scene& scene, const Point& point)
     const auto threshold = [&](const BlockSide<double>& side, const SlidingSide<double>& on) {
         return on.friction > on.friction_to_lift()
                    ? uplift_threshold(scene.theory, side.slenderness)
-                   : std::numeric_limits<double>::infinity();
+                   : infinity;
     };
     const Block<double>& block = point.block;
     const auto plus = sliding_side(block, point.gyration, point.friction);

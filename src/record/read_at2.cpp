@@ -13,7 +13,7 @@ namespace overturn {
 
 namespace {
 
-constexpr std::size_t header_lines = 4;
+constexpr std::size_t at2_header_lines = 4;
 constexpr std::size_t title_line = 3; // states the kind of data and their unit
 
 bool is_seconds(std::string_view word)
@@ -115,7 +115,7 @@ std::optional<AccelerationUnit> unit_of_header(const Lines& before)
 RecordFile read_at2(Lines lines, const RecordOptions& options)
 {
     const Lines before = lines;
-    lines = ahead_by(lines, header_lines);
+    lines = ahead_by(lines, at2_header_lines);
     const Lines title = ahead_by(before, title_line);
     expect_acceleration(title);
     const Lines times = lines;
@@ -133,10 +133,10 @@ RecordFile read_at2(Lines lines, const RecordOptions& options)
         .name = std::string(comma == station.npos ? "" : trimmed(station.substr(comma + 1))),
         .event = std::string(comma == station.npos ? "" : trimmed(station.substr(0, comma))),
         .acceleration = take_free_numbers(
-            lines, {.count = sampling.count, .name = "NPTS", .line = header_lines}),
+            lines, {.count = sampling.count, .name = "NPTS", .line = at2_header_lines}),
         .unit = stated ? *stated : *options.unit,
         .time_step = sampling.time_step,
-        .header = kept_lines(before, header_lines)};
+        .header = kept_lines(before, at2_header_lines)};
     compare({{Stated::duration, times, "DURATION", sampling.duration},
              peak_after(title, "peak", "the peak")},
             component, times, sampling.rounding);

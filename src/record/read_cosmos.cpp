@@ -174,7 +174,7 @@ bool is_uncorrected(Lines lines)
 }
 
 /// A channel; nullopt if it is not an acceleration.
-std::optional<RecordComponent> take_channel(Lines& lines)
+std::optional<RecordComponent> take_cosmos_channel(Lines& lines)
 {
     const Lines before = lines;
     const HeaderValues integers = take_header_values(lines, "Integer-header");
@@ -240,7 +240,7 @@ RecordFile read_cosmos(Lines lines, const RecordOptions&)
     next_text(title);
     RecordFile file{.format = "COSMOS", .components = {}};
     do {
-        if (auto component = take_channel(lines)) {
+        if (auto component = take_cosmos_channel(lines)) {
             file.components.push_back(std::move(*component));
         }
         expect_end(lines);

@@ -81,7 +81,7 @@ void add_numbers_of_columns(const Lines& header, const Lines& announcing,
     add(Stated::time_of_peak, reals + 9, 10, 0, "real 65, the time of the peak,");
 }
 
-RecordComponent take_channel(Lines& lines)
+RecordComponent take_csmip_channel(Lines& lines)
 {
     const Lines before = lines;
     if (!next_with(lines, marks_values)) {
@@ -125,7 +125,7 @@ RecordFile read_csmip(Lines lines, const RecordOptions&)
         Lines title = lines;
         next_text(title);
         expect_corrected_accelerogram(title);
-        file.components.push_back(take_channel(lines));
+        file.components.push_back(take_csmip_channel(lines));
     } while (!is_at_end(lines));
     return file;
 }

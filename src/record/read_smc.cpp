@@ -12,7 +12,7 @@ namespace overturn {
 namespace {
 
 // 11 lines of text, 6 of integers in columns of 10, 10 of numbers in columns of 15.
-constexpr std::size_t header_lines = 27;
+constexpr std::size_t smc_header_lines = 27;
 
 constexpr std::string_view before_component = "component=";
 
@@ -77,7 +77,7 @@ void expect_no_times(const Lines& rates, const std::vector<double>& samples)
 
 /// Real numbers 29 to 32, and `epicentral dist =     63.0       pk     =    272.3`. before: the
 /// header
-std::vector<StatedNumber> stated_numbers(const Lines& before)
+std::vector<StatedNumber> stated_in_smc(const Lines& before)
 {
     const Lines peak = ahead_by(before, 7), highest = ahead_by(before, 23),
                 lowest = ahead_by(before, 24);
@@ -103,7 +103,7 @@ RecordFile read_smc(Lines lines, const RecordOptions&)
 {
     const Lines before = lines;
     const Lines kind = ahead_by(before, 1);
-    lines = ahead_by(before, header_lines);
+    lines = ahead_by(before, smc_header_lines);
     if (!contains(kind.line(), "ACCELEROGRAM")) {
         refuse_motion(kind);
     }
@@ -127,7 +127,7 @@ RecordFile read_smc(Lines lines, const RecordOptions&)
                               .is_uncorrected = contains(kind.line(), "UNCORRECTED"),
                               .header = kept_lines(before, last_of_header)};
     expect_no_times(rates, component.acceleration);
-    compare(stated_numbers(before), component, before,
+    compare(stated_in_smc(before), component, before,
             rounding_of(column_of(rates.line(), 15, 1)) / (rate * rate));
     return {.format = "SMC", .components = {std::move(component)}};
 }

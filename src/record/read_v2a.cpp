@@ -9,7 +9,7 @@ namespace overturn {
 
 namespace {
 
-constexpr std::size_t header_lines = 26;
+constexpr std::size_t v2a_header_lines = 26;
 constexpr std::size_t most_components = 3;
 constexpr Columns columns{.width = 8, .per_line = 10};
 
@@ -35,7 +35,7 @@ void expect_unit(const Lines& lines)
 /// The numbers of `Number of points  8192    Duration 163.82 sec`, `Instrument corrected data at
 /// 0.020 sec intervals`, `Acceleration:  peak  -9733.1 mm/s/s at  44.88 sec     rms    719.0
 /// mm/s/s`, and of columns. before: the header
-std::vector<StatedNumber> stated_numbers(const Lines& before)
+std::vector<StatedNumber> stated_in_v2a(const Lines& before)
 {
     const Lines length = ahead_by(before, 10), interval = ahead_by(before, 11),
                 peak = ahead_by(before, 14), times = ahead_by(before, 23),
@@ -66,7 +66,7 @@ std::vector<StatedNumber> stated_numbers(const Lines& before)
 RecordComponent take_component(Lines& lines)
 {
     const Lines before = lines;
-    lines = ahead_by(lines, header_lines);
+    lines = ahead_by(lines, v2a_header_lines);
     expect_corrected_accelerogram(ahead_by(before, 1));
     expect_unit(ahead_by(before, 14));
     const Lines times = ahead_by(before, 23);
@@ -84,7 +84,7 @@ RecordComponent take_component(Lines& lines)
         return take_columns(lines, columns, {count, name, counts.number()});
     };
     component.acceleration = take(3, "acceleration", 1);
-    compare(stated_numbers(before), component, before,
+    compare(stated_in_v2a(before), component, before,
             rounding_of(column_of(times.line(), columns.width, 5)));
     take(4, "velocity", 0); // which may be missing, like the displacement
     take(5, "displacement", 0);

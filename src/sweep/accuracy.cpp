@@ -29,7 +29,7 @@ ErrorDistribution distribution(std::vector<double> errors)
     std::sort(errors.begin(), errors.end());
     for (std::size_t i = 0; i < result.size(); ++i) {
         const double last = double(errors.size()) - 1;
-        result[i] = errors.empty() ? std::numeric_limits<double>::quiet_NaN()
+        result[i] = errors.empty() ? unknown_value
                                    : errors[std::size_t(std::ceil(error_quantiles[i] * last))];
     }
     return result;
@@ -230,8 +230,7 @@ void AccuracyStudy::measure_errors(const Outcomes& outcomes, AccuracyRow& row) c
                 return traits_of(field).value.at(ends[point]);
             };
             const double apart = std::abs(value_of(outcomes) - value_of(*in_50_digits_));
-            return differ || !std::isfinite(apart) ? std::numeric_limits<double>::infinity()
-                                                   : apart;
+            return differ || !std::isfinite(apart) ? infinity : apart;
         };
         angle.push_back(error(Field::angle));
         velocity.push_back(error(Field::velocity));
@@ -253,10 +252,9 @@ void AccuracyStudy::measure_errors(const Outcomes& outcomes, AccuracyRow& row) c
     row.velocity = distribution(velocity);
     row.margin = distribution(margin);
     row.slide = distribution(slide);
-    const double unknown = std::numeric_limits<double>::quiet_NaN();
     static_assert(error_quantiles[0] == 0.5); // the median
-    row.bound_exceeded = with_bounds ? double(exceeded) / double(margin.size()) : unknown;
-    row.bound_over_error = with_bounds ? distribution(ratios)[0] : unknown;
+    row.bound_exceeded = with_bounds ? double(exceeded) / double(margin.size()) : unknown_value;
+    row.bound_over_error = with_bounds ? distribution(ratios)[0] : unknown_value;
 }
 
 } // namespace overturn

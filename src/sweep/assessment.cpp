@@ -20,9 +20,6 @@ namespace overturn {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
 /// The place of a point of a grid along its dimensions, of which the last one is the fastest.
 Shape place_of(std::int64_t point, const Shape& shape)
 {
@@ -80,7 +77,7 @@ ObjectCase worst_of(std::span<const ObjectCase> cases)
         worst.factor_below = std::max(worst.factor_below, each.factor_below);
         worst.factor_above = std::min(worst.factor_above, each.factor_above);
         worst.peak = worst.peak < each.peak ? each.peak : worst.peak; // NaN and infinity remain
-        worst.slide = std::isnan(each.slide) ? unknown : std::max(worst.slide, each.slide);
+        worst.slide = std::isnan(each.slide) ? unknown_value : std::max(worst.slide, each.slide);
     }
     return worst;
 }
@@ -109,7 +106,7 @@ std::vector<ObjectCase> cases_of(const Problem& problem, const AssessmentQuestio
     const std::vector<double> sizes =
         coordinates.has(size)
             ? coordinates.along({table}, size)
-            : std::vector<double>(std::size_t(problem.grid.table()->size()), unknown);
+            : std::vector<double>(std::size_t(problem.grid.table()->size()), unknown_value);
     const std::vector<Point> points = coordinates.points();
     const Shape shape = problem.grid.shape();
     std::vector<std::size_t> chosen;

@@ -58,8 +58,7 @@ std::vector<double> divided_strengths(const std::vector<double>& strengths, doub
     }
     return divided(halved, [&](double below, double above) {
         // Of even steps, the lowest is the widest over its upper strength.
-        return above > lifting ? widest / (1 - widest) * std::max(below, lifting)
-                               : std::numeric_limits<double>::infinity();
+        return above > lifting ? widest / (1 - widest) * std::max(below, lifting) : infinity;
     });
 }
 

@@ -8,7 +8,6 @@
 #include "overturn/text/mapped.hpp"
 
 #include <cmath>
-#include <limits>
 #include <map>
 
 #if defined(__GLIBC__)
@@ -89,7 +88,7 @@ TileFields fields_of(const Boundaries& boundaries, const Problem& problem, const
             ? boundary_on(scene, strengths, values, kernel, search)
             : boundary_on(scene, line_along(*boundaries.along, grid, beginning.begin), values,
                           kernel, search);
-    std::vector<double> value(search.most_flips, std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> value(search.most_flips, unknown_value);
     std::vector<double> amplitude = value;
     std::vector<double> pga = value;
     std::vector<std::uint8_t> below(search.most_flips, no_flip);

@@ -18,9 +18,6 @@ namespace overturn {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
 /// The order and tolerance of the integration, as accurate as doubles allow.
 constexpr int path_order = 20;
 constexpr double path_tolerance = 1e-13;
@@ -147,7 +144,7 @@ private:
     double time_of_rest() const
     {
         if (!is_free()) {
-            return path_.end.fell ? infinity : unknown;
+            return path_.end.fell ? infinity : unknown_value;
         }
         if (path_.events.empty() || path_.events.back().kind == EventKind::rest) {
             return path_.events.empty() ? 0 : time_at(path_.events.back().rocking.phase);
@@ -158,7 +155,7 @@ private:
     double time_of_fall() const
     {
         if (!is_free()) {
-            return path_.end.fell ? end_of_path_ : unknown;
+            return path_.end.fell ? end_of_path_ : unknown_value;
         }
         return after_path(
             time_to_lie_flat<theory, MoreExact<double>>(path_.end.state, block_at_end_));
@@ -179,7 +176,7 @@ private:
                              .acceleration = state.side * pull * (ratio * ratio),
                              .q = double(conserved_q<theory>(state, seen)),
                              .ground = horizontal_of(ground),
-                             .friction_demand = unknown};
+                             .friction_demand = unknown_value};
         press(result, SlidingMode::rock, state.side,
               force_while_rocking(sides_.seen_from(state.side), seen.slenderness, moving));
         return result;
@@ -206,9 +203,9 @@ private:
     {
         const bool is_known = Equations<theory>::has_contact_forces;
         result.mode = mode;
-        result.friction_demand = is_known ? force.friction() : unknown;
-        result.force_along = is_known ? side * force.along : unknown;
-        result.force_normal = is_known ? force.normal : unknown;
+        result.friction_demand = is_known ? force.friction() : unknown_value;
+        result.force_along = is_known ? side * force.along : unknown_value;
+        result.force_normal = is_known ? force.normal : unknown_value;
     }
 
     void record_forced_stage()
@@ -326,10 +323,10 @@ History history_of(const Scene& scene, const Point& point, const HistoryView& vi
     history.is_curve_certain = history.error < std::abs(history.margin);
     if (!history.is_curve_certain) {
         history.region = settled({.region = true}).region;
-        history.margin = unknown;
+        history.margin = unknown_value;
         history.error = infinity;
-        history.time_of_rest = unknown;
-        history.time_of_fall = unknown;
+        history.time_of_rest = unknown_value;
+        history.time_of_fall = unknown_value;
     }
     return history;
 }

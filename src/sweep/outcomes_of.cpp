@@ -7,14 +7,12 @@ namespace overturn {
 
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
 /// What the contact bears is unknown without a verdict.
 void judge_contact(Outcome& outcome, bool is_known)
 {
-    outcome.friction_demand = is_known ? outcome.friction_demand : unknown;
-    outcome.normal = is_known ? outcome.normal : unknown;
-    outcome.to_stick = is_known ? outcome.to_stick : unknown;
+    outcome.friction_demand = is_known ? outcome.friction_demand : unknown_value;
+    outcome.normal = is_known ? outcome.normal : unknown_value;
+    outcome.to_stick = is_known ? outcome.to_stick : unknown_value;
     if (outcome.normal <= 0) {
         outcome.flags |= status::lifts_off;
     }

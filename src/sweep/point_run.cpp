@@ -12,9 +12,6 @@ namespace overturn {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
 /// The records of points, in their order; those of equal directions are the same object.
 std::vector<Record> records_of(const Scene& scene, const std::vector<Point>& points)
 {
@@ -64,7 +61,7 @@ constexpr Outcome free_fall = [] {
     Outcome outcome{};
     outcome.flags = status::free_fall;
     outcome.region = Region::undecided;
-    outcome.margin = unknown;
+    outcome.margin = unknown_value;
     outcome.error = infinity;
     return outcome;
 }();
@@ -174,24 +171,24 @@ Outcome outcome_of(const SlidingEnd<T>& end, const Block<T>& given, Outcome outc
     const bool is_decided = end.region != Region::undecided;
     const Block<T> block = seen_from(end.state.side, given);
     const auto flag = [](bool holds, std::uint16_t bit) { return holds ? bit : 0; };
-    outcome.tilt = is_decided ? double(end.state.tilt) : unknown;
-    outcome.rate = is_decided ? double(end.state.rate) : unknown;
+    outcome.tilt = is_decided ? double(end.state.tilt) : unknown_value;
+    outcome.rate = is_decided ? double(end.state.rate) : unknown_value;
     outcome.side = double(end.state.side);
     outcome.flags =
         std::uint16_t(flag(end.fell, outcome_flag::fell) | flag(end.slipped, status::slipped) |
                       flag(end.jammed, status::jammed) | flag(end.lifted_off, status::lifts_off) |
                       flag(end.capped, status::cap_was_hit));
     outcome.region = end.region;
-    outcome.margin = !is_decided || end.slips_after ? unknown
+    outcome.margin = !is_decided || end.slips_after ? unknown_value
                      : end.fell ? double(margin_of_fall<Theory::nonlinear>(end.state.rate, block))
                                 : double(margin_after_pulse<Theory::nonlinear>(end.state, block));
-    outcome.error = is_decided ? unknown : infinity;
+    outcome.error = is_decided ? unknown_value : infinity;
     outcome.impacts = end.impacts;
     outcome.steps = end.steps;
     outcome.phase = double(end.phase);
-    outcome.peak = is_decided ? double(end.peak) : unknown;
-    outcome.slide = is_decided ? double(end.slide) : unknown;
-    outcome.slide_peak = is_decided ? double(end.slide_peak) : unknown;
+    outcome.peak = is_decided ? double(end.peak) : unknown_value;
+    outcome.slide = is_decided ? double(end.slide) : unknown_value;
+    outcome.slide_peak = is_decided ? double(end.slide_peak) : unknown_value;
     outcome.uplift = double(end.uplift);
     outcome.fall_after = double(end.time_of_fall);
     return outcome;
@@ -265,7 +262,7 @@ void PointRun::let_slip(const Numerics& numerics, const Outputs& outputs, Outcom
     for (int i = 0; i < size(); ++i) {
         Outcome& outcome = outcomes[i];
         const Point& at = point(i);
-        outcome.slide = outcome.slide_peak = outcome.has(status::free_fall) ? unknown : 0;
+        outcome.slide = outcome.slide_peak = outcome.has(status::free_fall) ? unknown_value : 0;
         // A strength of exactly the friction, such as both 0.3, is scaled with roundings.
         const double sticks_up_to = at.friction * (1 + 4 * std::numeric_limits<double>::epsilon());
         if (outcome.has(status::free_fall) || outcome.to_stick <= sticks_up_to) {

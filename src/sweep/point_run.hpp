@@ -38,7 +38,7 @@ inline constexpr Outcome at_rest = [] {
     outcome.side = 1;
     outcome.region = Region::S;
     outcome.margin = 1;
-    outcome.to_stick = std::numeric_limits<double>::infinity();
+    outcome.to_stick = infinity;
     return outcome;
 }();
 

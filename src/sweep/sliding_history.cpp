@@ -11,9 +11,6 @@ namespace overturn {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
 /// Records the motion of a block that slips, in two runs: the first one yields the times.
 template <class Excitation>
 class SlidingHistoryBuilder {
@@ -102,8 +99,8 @@ private:
         History history{};
         history.end_of_pulse = (excitation_.motion.end - excitation_.motion.begin) /
                                excitation_.frequency * point_.block.frequency_parameter;
-        history.time_of_rest = !is_known ? unknown : falls ? infinity : since;
-        history.time_of_fall = !is_known ? unknown : falls ? stopped_ : infinity;
+        history.time_of_rest = !is_known ? unknown_value : falls ? infinity : since;
+        history.time_of_fall = !is_known ? unknown_value : falls ? stopped_ : infinity;
         history.region = outcome.region;
         history.margin = outcome.margin;
         history.error = outcome.error;

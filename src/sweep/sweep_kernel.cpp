@@ -59,7 +59,7 @@ template <Theory theory, Outputs outputs>
     if constexpr (has_31_digits) {
         // The margin is rounded to double.
         const T margin = abs(margin_of<theory>(end, block));
-        const auto is_finite = end.error < T(std::numeric_limits<double>::infinity());
+        const auto is_finite = end.error < T(infinity);
         const T error = select<T>(
             is_finite, select<T>(is_finite, end.error, 0) + margin * T(0x1p-53), end.error);
         flags = flags + flagged(!(error < margin), outcome_flag::in_doubt);

@@ -4,7 +4,6 @@
 #include "overturn/sweep/history.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace overturn {
 
@@ -33,7 +32,7 @@ public:
             }
             history_.samples.push_back(at(time));
         }
-        if (end < std::numeric_limits<double>::infinity()) {
+        if (end < infinity) {
             last_ = at(end);
         }
     }

@@ -128,7 +128,7 @@ std::vector<RestitutionAnswer> answers_by_restitution(const Problem& problem, co
         ++done;
     });
     for (std::size_t i = 0; i < ratios.size(); ++i) {
-        answers[i].share = r_max ? ratios[i] / *r_max : std::numeric_limits<double>::quiet_NaN();
+        answers[i].share = r_max ? ratios[i] / *r_max : unknown_value;
         answers[i].ratio = ratios[i];
         if (ratios[i] == requested) {
             answers[i].ranges = answers.front().ranges;
@@ -141,7 +141,6 @@ std::vector<RestitutionAnswer> answers_by_restitution(const Problem& problem, co
 /// as a ratio, the least toppling one, and that which lifts the block.
 std::tuple<int, double, double, double> rank_of(const ToppleAnswer& answer)
 {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     const VerdictRanges& ranges = answer.requested().ranges;
     double distance = infinity;
     if (answer.verdict) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace overturn {
@@ -106,7 +105,7 @@ double differences(const CellNodes& cell, const std::array<double, 9>& f)
 bool is_clear(const CellNodes& cell, Switch which, double kappa)
 {
     std::array<double, 9> f{};
-    double least = std::numeric_limits<double>::infinity();
+    double least = infinity;
     int infinite = 0;
     int positive = 0;
     for (std::size_t i = 0; i < f.size(); ++i) {

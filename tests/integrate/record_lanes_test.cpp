@@ -13,7 +13,6 @@ namespace {
 
 using Lanes = OVERTURN_NUMBER;
 constexpr std::size_t lanes = lanes_v<Lanes>;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// One block per lane, under the same record.
 using Points = std::vector<RecordPoint>;

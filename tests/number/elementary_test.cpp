@@ -110,7 +110,6 @@ TEST(ExponentialDecay, IsWithinTwoUnitsInTheLastPlaceDownToTheSmallestNumbers)
     EXPECT_EQ(exponential_decay(0.0), 1.0);
 }
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Split, ReproducesEveryNormalNumberExactly)

@@ -356,7 +356,6 @@ TEST(ScalesOf, EveryRecordAreItsSmallestAndLargestFactor)
     const Given all = axis("motion", {1, 2, 3});
     EXPECT_EQ(as_pairs({all, axis("scale", {1, 2, 3})}), (Pairs{{1, 3}, {1, 3}, {1, 3}}));
     EXPECT_EQ(as_pairs({all, axis("pga", {1, 2})}), (Pairs{{2, 4}, {4, 8}, {0.5, 1}}));
-    const double infinity = std::numeric_limits<double>::infinity();
     EXPECT_EQ(as_pairs({column("motion", {2, 1, 2}), column("pga", {1, 2, 3})}),
               (Pairs{{4, 4}, {4, 12}, {infinity, 0}}));
 }

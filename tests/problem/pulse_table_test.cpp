@@ -44,7 +44,6 @@ Refusal refusal_of(const std::vector<double>& times, const std::vector<double>& 
 TEST(PulseTable, IsRefusedIfItIsNone)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    const double infinity = std::numeric_limits<double>::infinity();
     const auto expect = [](const Refusal& found, std::int64_t row, const std::string& column,
                            const std::string& text) {
         EXPECT_EQ(found.row, row) << text;

@@ -6,6 +6,5 @@
 namespace overturn {
 
 inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 } // namespace overturn

@@ -7,9 +7,12 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 
 namespace overturn {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Whether the processor has an instruction for fma. WebAssembly has none, and the function of the
 /// C library takes longer than a step.

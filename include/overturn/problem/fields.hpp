@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <variant>
@@ -16,6 +17,9 @@ namespace overturn {
 
 struct EndOfPoint;
 struct EndsOfPoints;
+
+/// What is unknown, as a floating-point number.
+inline constexpr double unknown_value = std::numeric_limits<double>::quiet_NaN();
 
 /// Of the fields that are floating-point numbers: float32 or float64.
 enum class Precision { single_precision, double_precision };

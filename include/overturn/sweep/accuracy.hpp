@@ -3,11 +3,11 @@
 #pragma once
 
 #include "overturn/mechanics/region.hpp"
+#include "overturn/number/number.hpp"
 #include "overturn/sweep/compute_tile.hpp"
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -21,8 +21,7 @@ inline constexpr std::array<double, 5> error_quantiles{0.5, 0.9, 0.99, 0.999, 1}
 
 /// Upper limits of the classes of |margin| by which wrong verdicts are counted; the last one is
 /// unlimited.
-inline constexpr std::array<double, 6> distance_limits{
-    1e-8, 1e-6, 1e-4, 1e-2, 1, std::numeric_limits<double>::infinity()};
+inline constexpr std::array<double, 6> distance_limits{1e-8, 1e-6, 1e-4, 1e-2, 1, infinity};
 
 inline constexpr std::size_t decided_regions = region_names.size();
 

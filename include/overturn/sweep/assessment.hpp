@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,7 +31,7 @@ struct ObjectCase {
     /// The factors on the strength, the nearest ones to 1, at which an object topples that stands
     /// at the asked one; 0 and infinite if none was found.
     double factor_below = 0;
-    double factor_above = std::numeric_limits<double>::infinity();
+    double factor_above = infinity;
     double peak = 0;  ///< |theta| / alpha; infinite if it topples, NaN if undecided
     double slide = 0; ///< the largest distance [m]; NaN if it is not known
 

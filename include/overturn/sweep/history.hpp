@@ -5,10 +5,10 @@
 #include "overturn/integrate/event_kind.hpp"
 #include "overturn/integrate/sliding_mode.hpp"
 #include "overturn/mechanics/region.hpp"
+#include "overturn/problem/fields.hpp"
 #include "overturn/problem/point.hpp"
 #include "overturn/problem/scene.hpp"
 
-#include <limits>
 #include <vector>
 
 namespace overturn {
@@ -17,7 +17,7 @@ namespace overturn {
 struct HistoryView {
     /// The last time shown, since the beginning of the pulse [1/p]; NaN: until the block rests or
     /// lies flat, but at most free_time_shown after the pulse.
-    double until = std::numeric_limits<double>::quiet_NaN();
+    double until = unknown_value;
     int samples = 2000; ///< evenly spaced, in addition to those at events
 };
 

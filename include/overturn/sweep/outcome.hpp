@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 
 namespace overturn {
 
@@ -68,7 +67,7 @@ struct Outcome {
     /// A magnitude at the end with the sign of theta; NaN if the integration did not reach the end.
     double with_sign(double magnitude) const
     {
-        return has(outcome_flag::without_end) ? std::numeric_limits<double>::quiet_NaN()
+        return has(outcome_flag::without_end) ? unknown_value
                : side > 0                     ? magnitude
                                               : 0.0 - magnitude; // not -0
     }
