@@ -37,8 +37,8 @@ struct ResultWriter::Open {
     Handle file;
     std::vector<StoredField> fields;
     Handle checksums;
-    std::uint64_t seed;   ///< see seed_of_checksums()
-    Handle audit_checked; ///< only if the spectrum is filled
+    std::optional<TileChecksums> checksum_of_tile; ///< once the job is read
+    Handle audit_checked;                          ///< only if the spectrum is filled
     Handle audit_wrong;
     bool is_filled;
     bool is_durable;
@@ -244,7 +244,7 @@ ResultWriter::ResultWriter(const std::string& path, MPI_Comm communicator, const
         }
         const std::vector<char> job =
             read_all<char>(open(layout::job_resolved), open_->as_opened.st_size);
-        open_->seed = seed_of_checksums({job.data(), job.size()});
+        open_->checksum_of_tile.emplace(std::string_view(job.data(), job.size()));
     } catch (const hdf5::Hdf5Error& error) {
         refuse_to_open(path, error.what());
     }
@@ -280,8 +280,7 @@ void ResultWriter::reset(const Tile& tile)
 void ResultWriter::write(const Tile& tile, const TileFields& fields)
 {
     const auto audit = open_->is_filled ? std::optional(fields.audit) : std::nullopt;
-    open_->store(tile, fields,
-                 tile_checksum(fields.values, open_->seed + std::uint64_t(tile.number), audit));
+    open_->store(tile, fields, open_->checksum_of_tile->of(tile.number, fields.values, audit));
 }
 
 void ResultWriter::close()

@@ -314,13 +314,13 @@ std::vector<std::string> StoredResult::damaged_coordinates() const
 std::vector<std::int64_t> StoredResult::damaged_tiles(const BetweenTiles& between_tiles) const
 {
     std::vector<std::int64_t> damaged;
-    const bool has_seed = origin_.format != layout::former_format;
-    const std::uint64_t seed = seed_of_checksums(origin_.resolved_job);
+    const TileChecksums checksums = origin_.format == layout::former_format
+                                        ? TileChecksums::of_former_format()
+                                        : TileChecksums(origin_.resolved_job);
     const auto check_tile = [&](const Tile& tile, const std::vector<FieldValues>& values) {
         const auto number = std::size_t(tile.number);
         const auto audit = open_->tiles.audit ? std::optional(open_->audits[number]) : std::nullopt;
-        if (tile_checksum(values, has_seed ? seed + number : 0, audit) !=
-            open_->checksums[number]) {
+        if (checksums.of(tile.number, values, audit) != open_->checksums[number]) {
             damaged.push_back(tile.number);
         }
     };

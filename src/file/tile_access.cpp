@@ -100,17 +100,16 @@ FieldValues read_chunk(const StoredField& stored, const Tile& tile, const Shape&
 
 static_assert(std::endian::native == std::endian::little, "values are hashed as they are stored");
 
-std::uint64_t seed_of_checksums(std::string_view resolved_job)
-{
-    return XXH64(resolved_job.data(), resolved_job.size(), 0);
-}
+TileChecksums::TileChecksums(std::string_view resolved_job)
+    : seed_of_first_(XXH64(resolved_job.data(), resolved_job.size(), 0))
+{}
 
-std::uint64_t tile_checksum(const std::vector<FieldValues>& fields, std::uint64_t seed,
-                            const std::optional<AuditCount>& audit)
+std::uint64_t TileChecksums::of(std::int64_t tile, const std::vector<FieldValues>& fields,
+                                const std::optional<AuditCount>& audit) const
 {
     const std::unique_ptr<XXH64_state_t, decltype(&XXH64_freeState)> state(XXH64_createState(),
                                                                            XXH64_freeState);
-    XXH64_reset(state.get(), seed);
+    XXH64_reset(state.get(), seed_of_first_ ? *seed_of_first_ + std::uint64_t(tile) : 0);
     for (const FieldValues& field : fields) {
         std::visit(
             [&](const auto& values) {

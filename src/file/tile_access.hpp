@@ -65,15 +65,26 @@ FieldValues read_chunk(const StoredField& stored, const Tile& tile, const Shape&
 
 inline constexpr std::uint64_t not_computed_checksum = 0;
 
-/// The seed of the checksum of tile 0, from the text of the job with all defaults: tiles of another
-/// job do not fit. 0 in files of the former format.
-std::uint64_t seed_of_checksums(std::string_view resolved_job);
+/// The checksums of the tiles of one job: tiles of another job, or in another place, do not fit.
+class TileChecksums {
+public:
+    /// resolved_job: its text with all defaults.
+    explicit TileChecksums(std::string_view resolved_job);
 
-/// xxHash64 over the values of the tile as stored (little endian), field by field in the given
-/// order, and over the counts of the audit if the tile is filled. The seed is that of tile 0 plus
-/// the number of the tile. A hash of 0 becomes 1, since 0 means "not computed".
-std::uint64_t tile_checksum(const std::vector<FieldValues>& fields, std::uint64_t seed,
-                            const std::optional<AuditCount>& audit = std::nullopt);
+    /// Those of files of the former format, with the same seed for every tile of every job.
+    static TileChecksums of_former_format() { return TileChecksums(); }
+
+    /// xxHash64 over the values as stored (little endian), field by field in the given order, and
+    /// over the counts of the audit if the tile is filled. The seed is the xxHash64 of the job plus
+    /// the number of the tile. A hash of 0 becomes 1, since 0 means "not computed".
+    std::uint64_t of(std::int64_t tile, const std::vector<FieldValues>& fields,
+                     const std::optional<AuditCount>& audit = std::nullopt) const;
+
+private:
+    TileChecksums() = default;
+
+    std::optional<std::uint64_t> seed_of_first_;
+};
 
 /// Writes into a dataset of one number per tile, such as the checksums.
 void write_number(hid_t dataset, std::int64_t tile, std::uint64_t number);

@@ -2,36 +2,45 @@
 
 #include <gtest/gtest.h>
 
+#include <xxhash.h>
+
 namespace overturn {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 using Shorts = std::vector<std::uint16_t>;
 
+const TileChecksums checksums("r = 1");
+
 // The published xxHash64 of the empty string and of "abc", seed 0.
-TEST(TileChecksum, IsXxHash64)
+TEST(TileChecksum, IsXxHash64InFilesOfTheFormerFormat)
 {
-    EXPECT_EQ(tile_checksum({}, 0), 0xef46db3751d8e999u);
-    EXPECT_EQ(tile_checksum({Bytes{'a', 'b', 'c'}}, 0), 0x44bc2cf5ad770999u);
-    EXPECT_EQ(seed_of_checksums("abc"), 0x44bc2cf5ad770999u);
+    const TileChecksums former = TileChecksums::of_former_format();
+    EXPECT_EQ(former.of(0, {}), 0xef46db3751d8e999u);
+    EXPECT_EQ(former.of(7, {Bytes{'a', 'b', 'c'}}), 0x44bc2cf5ad770999u);
+}
+
+TEST(TileChecksum, HasTheSeedOfItsJobAndItsTile)
+{
+    const std::uint64_t seed = 0x44bc2cf5ad770999u; // the xxHash64 of "abc"
+    EXPECT_EQ(TileChecksums("abc").of(7, {Bytes{1, 2}}), XXH64("\x01\x02", 2, seed + 7));
 }
 
 TEST(TileChecksum, IsThatOfOneTileOfOneJob)
 {
-    const std::uint64_t seed = seed_of_checksums("r = 1"), other = seed_of_checksums("r = 0.9");
-    EXPECT_NE(tile_checksum({Bytes{1}}, seed), tile_checksum({Bytes{1}}, seed + 1));
-    EXPECT_NE(tile_checksum({Bytes{1}}, seed), tile_checksum({Bytes{1}}, other));
+    EXPECT_NE(checksums.of(0, {Bytes{1}}), checksums.of(1, {Bytes{1}}));
+    EXPECT_NE(checksums.of(0, {Bytes{1}}), TileChecksums("r = 0.9").of(0, {Bytes{1}}));
 }
 
 TEST(TileChecksum, ContinuesFromFieldToField)
 {
-    EXPECT_EQ(tile_checksum({Bytes{'a'}, Shorts{'b' + 256 * 'c'}}, 7),
-              tile_checksum({Bytes{'a', 'b', 'c'}}, 7));
+    EXPECT_EQ(checksums.of(7, {Bytes{'a'}, Shorts{'b' + 256 * 'c'}}),
+              checksums.of(7, {Bytes{'a', 'b', 'c'}}));
 }
 
 TEST(TileChecksum, DependsOnTheOrderOfTheFields)
 {
-    EXPECT_NE(tile_checksum({Bytes{1}, Bytes{2}}, 0), tile_checksum({Bytes{2}, Bytes{1}}, 0));
+    EXPECT_NE(checksums.of(0, {Bytes{1}, Bytes{2}}), checksums.of(0, {Bytes{2}, Bytes{1}}));
 }
 
 } // namespace

@@ -237,7 +237,7 @@ std::string file_to_alter(bool is_part)
             job.problem.fields, [&](Field field) { return not_computed(field, tile.points()); });
         const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
         write_number(hdf5::open_dataset(file, "run/checksum"), tile.number,
-                     tile_checksum(values, seed_of_checksums(job.resolved)));
+                     TileChecksums(job.resolved).of(tile.number, values));
     }
     return bytes_of(path);
 }

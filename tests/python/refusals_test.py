@@ -127,6 +127,7 @@ class ARefusal(Refused):
         for array in (np.array([0.6 + 0.1j]), np.array([0.6 + 0j], object), np.array(["2020"], "M8[D]"),
                       np.array([1], "m8[s]"), np.array([np.datetime64("2020")], object), np.array([object()])):
             self.assert_refused(ValueError, "width is not a number or an array of numbers", width=array)
+        self.assert_refused(ValueError, "width has an integer beyond the range of double precision", width=10**400)
 
     def test_of_samples(self):
         self.assert_refused(ValueError, "record[1] = nan is not finite", RECORD, record=[0, np.nan])

@@ -67,6 +67,8 @@ def numbers(name, value):
         if kinds & set("cMmVUSb"):  # complex numbers, dates and times, records, text, truth values
             raise TypeError
         return np.asarray(array, float)
+    except OverflowError:
+        raise ValueError(f"{name} has an integer beyond the range of double precision.") from None
     except (TypeError, ValueError):
         raise ValueError(f"{name} is not a number or an array of numbers.") from None
 
