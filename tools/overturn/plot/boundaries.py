@@ -117,7 +117,8 @@ def shade(panel, lines):
     edges = np.linspace(*up.edges[[0, -1]], ROWS + 1)
     middles = (edges[1:] + edges[:-1]) / 2
     amplitudes = np.exp(middles) if up.scale == "log" else middles
-    table = np.array([matplotlib.colors.to_rgba(SHADES[verdict]) for verdict in sorted(SHADES)])
+    shades = matplotlib.colors.to_rgba_array([SHADES[verdict] for verdict in sorted(SHADES)])
+    table = np.round(255 * shades).astype(np.uint8)
     # Columns are as wide as the cells of their frequencies, which may be unequal.
     verdicts = lines.verdicts(amplitudes)[:, across.cells(ROWS)]
     verdicts[:, across.is_between(ROWS)] = NOT_SCANNED if across.scale == BANDS else NOT_COMPUTED
