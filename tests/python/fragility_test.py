@@ -90,7 +90,7 @@ class ASlidingBlock(unittest.TestCase):
         slips = data.assign_coords(friction=0.4)
         self.assertIn("a block that slides off its support counts as standing", overturn.fragility(slips).summary())
         beyond = overturn.fragility(slips, of="slide_peak", above=0.6).summary()
-        self.assertIn("a block that overturns only counts if its slide_peak is above the level", beyond)
+        self.assertIn("a block that overturns counts only if its slide_peak is above the level", beyond)
         self.assertNotIn("counts as standing", beyond)
 
 

@@ -54,7 +54,7 @@ class Exceedance:
         if self.of in (OVERTURNING, "peak"):
             return ["the base has no end: a block that slides off its support counts as standing; see the field "
                     "slide_peak"]
-        return [f"a block that overturns only counts if its {self.of} is above the level"]
+        return [f"a block that overturns counts only if its {self.of} is above the level"]
 
     def verdicts(self, dataset, friction_demand=None):
         """Returns the verdict of each point, with the dimensions of the region. A point has none if its region is not
