@@ -13,21 +13,24 @@ from program import JOBS, Scratch, checksum
 FEW = ("--points", "1024", "--digits", "16")
 
 
+FEWER = ("--points", "64", "--digits", "4")
+
+
 class AnAccuracyStudy(Scratch):
-    def study(self):
-        return self.overturn("accuracy", "small.toml", "-o", "study.h5", *FEW)
+    def study(self, points=FEW, name="study.h5"):
+        return self.overturn("accuracy", "small.toml", "-o", name, *points)
 
     def have_study(self):
         self.have("study.h5", self.study)
 
     def test_prints_a_row_per_setting_and_writes_them(self):
-        result = self.study()
-        self.assert_exit(result, 0, "16 in 50 digits", "study.h5: written")
+        result = self.study(FEWER, "printed.h5")
+        self.assert_exit(result, 0, "4 in 50 digits", "printed.h5: written")
         rows = re.findall(r"^(?:rk45|taylor)( resolved)?\s+1e-\d\d", result.stdout, re.MULTILINE)
-        with h5py.File(self.folder / "study.h5") as file:
+        with h5py.File(self.folder / "printed.h5") as file:
             self.assertEqual(len(rows), len(file["tolerance"]))
             self.assertEqual(sum(map(bool, rows)), file["resolve"][:].sum())
-            self.assertEqual(file.attrs["points_in_50_digits"], 16)
+            self.assertEqual(file.attrs["points_in_50_digits"], 4)
             self.assertTrue((file["seconds_per_point"][:] > 0).all())
 
     def test_leaves_out_points_at_which_gravity_vanishes(self):
@@ -77,11 +80,13 @@ class AnAccuracyStudy(Scratch):
                 self.assertEqual(list(found["quantile"].values), [0.5, 0.9, 0.99, 0.999, 1])
 
     def test_replaces_an_older_study_and_nothing_else(self):
-        self.have_study()
-        self.assert_exit(self.study(), 0)
+        for points in (FEWER, ("--points", "32", "--digits", "2")):
+            self.assert_exit(self.study(points, "replaced.h5"), 0, "replaced.h5: written")
+        with h5py.File(self.folder / "replaced.h5") as file:
+            self.assertEqual(file.attrs["points_in_50_digits"], 2)
         self.overturn("run", "small.toml", "-o", "spectrum.h5")
         before = checksum(self.folder / "spectrum.h5")
-        result = self.overturn("accuracy", "small.toml", "-o", "spectrum.h5", *FEW)
+        result = self.study(FEWER, "spectrum.h5")
         self.assert_exit(result, 74, 'its kind is not "accuracy study"')
         self.assertEqual(checksum(self.folder / "spectrum.h5"), before)
 

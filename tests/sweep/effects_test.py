@@ -22,7 +22,7 @@ import unittest
 sys.path.insert(0, os.environ["BENCHMARKS"])
 import effects  # noqa: E402
 
-SIDE = 40  # one-time costs, such as those of the heap, are small beside those of the cheapest field
+SIDE = 28  # one-time costs, such as those of the heap, are small beside those of the cheapest field
 # Method: a loose and a fine tolerance. Both tolerances of Taylor are within the range of order 20,
 # which the benchmark program uses when it calls the kernel directly.
 TOLERANCES = {"rk45": ("1e-4", "1e-8"), "taylor": ("1e-8", "1e-12")}
@@ -77,7 +77,7 @@ def cost_of(field):
 def overhead(fields, what):
     """Returns what the sweep needs per point in addition to the direct call; on a larger tile, on
     which one-time costs are small."""
-    large = {"side": 64, "tolerance": "1e-3"}
+    large = {"side": 48, "tolerance": "1e-3"}
     return difference(sweep(*fields, **large), by_hand(what, **large))
 
 

@@ -8,7 +8,7 @@ import pathlib
 import unittest
 from unittest import mock
 
-from tool import InAFolder
+from tool import InAFolder, module_of
 
 FIGURES = ("02", "03", "04", "05", "07a", "07b_08", "09a", "09b", "10", "11a", "11b", "12a", "12b",
            "14a", "14b", "15a", "15b", "16a", "16b", "17a", "17b")
@@ -18,14 +18,18 @@ class Gallery(InAFolder):
     TOOL = "paper/gallery"
 
     def setUp(self):
-        """Figures are laid out, not encoded: the tests of each tool do that."""
+        """Figures are laid out as PNG, not encoded, nor drawn again as PDF: the tests of each tool do that."""
         super().setUp()
 
         def write(figure, path, **_):
-            if str(path).endswith(".png"):
-                figure.draw_without_rendering()
+            figure.draw_without_rendering()
             pathlib.Path(path).touch()
+
+        def unless_pdf(draw):
+            return lambda words: pathlib.Path(words[-1]).touch() if words[-1].endswith(".pdf") else draw(words)
         self.enterContext(mock.patch("overturn.output_file.write_picture", write))
+        for tool in module_of(self.TOOL).PLOTS.values():
+            self.enterContext(mock.patch.object(tool, "main", unless_pdf(tool.main)))
 
 
 class TestTheGallery(Gallery):

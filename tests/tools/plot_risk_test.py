@@ -72,9 +72,7 @@ class TestAPicture(Picture):
         for friction, count in zip(("0.1", "0.25", "3"), counts):
             self.assertRegex(text, rf"{count} of 90 points .*\nfriction = {friction}\n")
 
-    def test_replaces_its_own_picture_and_no_other(self):
-        for _ in range(2):
-            self.output_of("result.h5", "hazard.txt", "--samples", "20", "-o", "own.png")
+    def test_replaces_no_picture_of_another_program(self):
         (self.folder / "other.png").write_text("notes")
         self.refuses(74, "it exists and is not a PNG picture of overturn", "result.h5", "hazard.txt", "-o", "other.png")
         self.assertEqual((self.folder / "other.png").read_text(), "notes")
