@@ -4,6 +4,7 @@ import os
 import re
 import signal
 import socket
+import time
 import unittest
 
 import h5py
@@ -108,6 +109,7 @@ class ADamagedFile(Scratch):
                 with (self.folder / "long.h5").open("r+b") as file:
                     mark = bytes(8)
                     while mark == bytes(8):
+                        time.sleep(1e-3)
                         mark = os.pread(file.fileno(), 8, place)
                     os.pwrite(file.fileno(), bytes(8), place)
                 self.go_on()

@@ -167,8 +167,8 @@ class TwoSides(Scratch):
             (self.folder / "blocks.csv").write_text(f"width,height,{column},restitution\n0.5,2,0.05,0.8\n")
             (self.folder / "table.toml").write_text(
                 'scene.pulse = "one_sine"\nblocks.table = "blocks.csv"\nplane = { pulse_period = 0.5, pga = 0.3 }\n')
-            for words in (("check",), ("run", "-o", f"{column}.h5")):
-                result = self.overturn(*words, "table.toml")
+            for command in ("check", "run") if column == "inclin" else ("check",):
+                result = self.overturn(command, "table.toml")
                 self.assert_exit(result, 0, column)
                 self.assertEqual(f'the column "{column}" of blocks.csv has no effect (did you mean {meant}?)'
                                  in result.stderr, meant is not None, column)

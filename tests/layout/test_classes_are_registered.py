@@ -20,7 +20,7 @@ def classes_with_tests(path):
 def unregistered():
     for path in sorted(TESTS.rglob("*_test.py")):
         listed = (path.parent / "CMakeLists.txt").read_text()
-        whole = " ".join(re.findall(r"add_script_tests\(([\w\s]+)\)", listed)).split()
+        whole = " ".join(re.findall(r"(?:add_script_tests|foreach)\(([\w\s]+)\)", listed)).split()
         if f"{path.name})" in listed or {path.stem, path.stem.removesuffix("_test")} & set(whole):  # runs as a whole
             continue
         words = set(re.findall(r"\w+", listed))

@@ -22,7 +22,7 @@ import unittest
 sys.path.insert(0, os.environ["BENCHMARKS"])
 import effects  # noqa: E402
 
-SIDE = 28  # one-time costs, such as those of the heap, are small beside those of the cheapest field
+SIDE = 20  # one-time costs, such as those of the heap, are small beside those of the cheapest field
 # Method: a loose and a fine tolerance. Both tolerances of Taylor are within the range of order 20,
 # which the benchmark program uses when it calls the kernel directly.
 TOLERANCES = {"rk45": ("1e-4", "1e-8"), "taylor": ("1e-8", "1e-12")}

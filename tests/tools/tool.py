@@ -3,6 +3,7 @@ importable. Running the program requires OVERTURN (the binary) in the environmen
 
 import contextlib
 import functools
+import gc
 import importlib.machinery
 import importlib.util
 import io
@@ -19,6 +20,7 @@ TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
 JOBS = TOOLS.parent / "jobs"
 PATIENCE = 100  # [s] for one run of a tool; the longest takes a few seconds
 
+gc.set_threshold(100_000)  # to look for unused figures more often takes a twentieth of the time
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(TOOLS))
 os.environ["MPLBACKEND"] = "Agg"  # as run_command() sets it
