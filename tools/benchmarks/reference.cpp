@@ -1,6 +1,4 @@
 // The reference: Runge-Kutta-Fehlberg 7(8) of Boost.odeint in long double.
-#include "long_double.hpp"
-
 #include "event_in_step.hpp"
 
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>

@@ -93,7 +93,8 @@ public:
     {
         const S push = push_.at(time);
         if constexpr (sines == Sines::overturn) {
-            return Equations<Theory::nonlinear>::acceleration(side_, tilt, push);
+            return Equations<Theory::nonlinear>::acceleration(BlockSide<S>{slenderness_}, tilt,
+                                                              push);
         } else {
             const S y = slenderness_ - tilt;
             return -(std::sin(y) + push * std::cos(y));
