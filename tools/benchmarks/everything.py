@@ -21,7 +21,7 @@ A second call at the same commit replaces or adds sections, so that all can be m
 new page begins. Commits that change the documentation alone do not count. Records that are
 not part of the sources are found in $OVERTURN_RECORDS. Do not run other programs meanwhile."""
 
-DOCUMENTATION = (":!docs", ":!*.md")
+DOCUMENTATION = (":!docs", ":!*.md", ":!*.png")
 BENCHMARKS = tuple(f"tools/bench {command}" for command in (
     "peers", "peers --record", "kernel", "effects", "run", "ranks", "ranks --record --points 512", "records",
     "records --record $OVERTURN_RECORDS/WTMC.V2A --components 1 2 3", "records --uncertain",
