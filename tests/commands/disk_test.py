@@ -64,8 +64,9 @@ class ADiskThatFails(OnFaultyDisk):
         making, every = self.writes_of_a_run()
         for (number, reason), ranks in zip(self.REASONS.items(), (None, 2, 2, None)):
             (self.folder / "out.h5").unlink(missing_ok=True)
+            # Rank 1 does not create the file. While rank 0 waits for the disk, rank 1 has tiles.
             at = ({"FAIL_AT_WRITE": (making + every) // 2} if ranks is None
-                  else {"FAIL_AT_WRITE": 10, "FAULTY_RANK": 1})  # rank 1 does not create the file
+                  else {"FAIL_AT_WRITE": 1, "FAULTY_RANK": 1, "WRITE_TAKES": 5, "SLOW_WHILE": self.folder})
             result = self.overturn_on_faulty_disk("run", "small.toml", "-o", "out.h5", ranks=ranks,
                                                   ERROR=number, **at)
             self.assert_exit(result, 74, "cannot write tile", reason)
