@@ -102,6 +102,12 @@ int shared_words(std::string_view column, std::string_view quantity)
     }));
 }
 
+/// Whether a number of the job is r_max, the restitution of blocks of which none is known.
+bool is_largest_restitution(const Column& number)
+{
+    return number.quantity->name == "restitution_of_maximum" && number.values.values().front() == 1;
+}
+
 /// The quantity that a column without effect probably gives: its name is misspelt, or shares a word
 /// with it, as in incline_deg. Empty if there is none, or if the points do not lack it.
 std::string_view quantity_meant_by(std::string_view column, const Grid& grid)
@@ -110,13 +116,21 @@ std::string_view quantity_meant_by(std::string_view column, const Grid& grid)
         const auto excludes = [&](const Column& given) {
             return given.quantity->name == name || exclude_each_other(given.quantity->name, name);
         };
-        return std::ranges::none_of(grid.numbers, excludes) &&
+        return std::ranges::none_of(grid.numbers,
+                                    [&](const Column& number) {
+                                        return excludes(number) && !is_largest_restitution(number);
+                                    }) &&
                std::ranges::none_of(grid.dimensions, [&](const Dimension& each) {
                    return std::ranges::any_of(each.columns, excludes);
                });
     };
     std::vector<std::string_view> names = keys_of("plane");
     std::erase_if(names, [&](std::string_view name) { return !is_lacking(name); });
+    // The coefficient of restitution is the ratio of velocities.
+    if (boost::algorithm::icontains(column, "coef") &&
+        boost::algorithm::icontains(column, "restitution") && is_lacking("velocity_restitution")) {
+        return "velocity_restitution";
+    }
     if (const std::string_view nearest = nearest_name(column, names); !nearest.empty()) {
         return nearest;
     }

@@ -250,6 +250,16 @@ class Assess(Scratch):
         self.assertIn("the second horizontal component has no effect", warnings(52, *two, "0,180"))
         self.assertNotIn("has no effect", warnings(52, *two, "0,30"))
 
+    def test_warns_of_a_column_that_seems_to_be_a_restitution(self):
+        for column, meant in (("coefficient_of_restitution", "velocity_restitution"), ("restituton", "restitution"),
+                              ("restitution_r", "restitution"), ("e", None)):
+            warning = f'the column "{column}" of objects.csv has no effect (did you mean {meant}?)'
+            for given, value in (("", ""), (",restitution", ",0.8")):
+                self.write_table(f"name,width,height,{column}{given}\nbust,0.4,1,0.8{value}\n")
+                found = self.overturn("assess", "objects.csv", "--period", "0.5")
+                self.assert_exit(found, 0)
+                self.assertEqual(warning in found.stderr, bool(meant) and not given, found.stderr)
+
     def test_takes_an_empty_cell_of_an_offset_or_incline_as_zero(self):
         self.write_table("name,width,height,incline,center_offset\na,0.2,0.5,0.03,0.01\nb,0.4,1.2,0,0\n")
         expected = self.rows("--period", "0.5", "--pga", "0.4")
