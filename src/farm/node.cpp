@@ -19,7 +19,7 @@ int most_ranks_per_node()
         return unlimited;
     }
     const ParsedNumber number = parse_number(text);
-    if (!is_whole(number, text) || !(number.value >= 1) ||
+    if (!is_whole(number, text) || !std::isgreaterequal(number.value, 1) ||
         number.value != std::floor(number.value)) {
         throw Error(
             exit_code::usage,

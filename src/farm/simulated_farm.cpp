@@ -20,12 +20,19 @@ constexpr double message_seconds = 2e-6;
 constexpr double largest_delay =
     std::chrono::duration<double>(attention_interval + message_interval).count(); // [s]
 
+/// Durations of tiles with this mean and coefficient of variation.
+std::gamma_distribution<double> durations(const FarmCosts& costs)
+{
+    const double square = costs.spread * costs.spread;
+    return costs.spread > 0 ? std::gamma_distribution<double>(1 / square, costs.tile * square)
+                            : std::gamma_distribution<double>();
+}
+
 class Simulation {
 public:
     Simulation(const FarmCosts& costs, int ranks, int ranks_per_node, std::int64_t tiles,
                const TileLimits& limits)
-        : costs_(costs), ranks_(ranks), limits_(limits), left_(tiles),
-          duration_(1 / (costs.spread * costs.spread), costs.tile * costs.spread * costs.spread)
+        : costs_(costs), ranks_(ranks), limits_(limits), left_(tiles), duration_(durations(costs))
     {
         for (int first = 0; first < ranks; first += ranks_per_node) {
             const int ranks_of_node = std::min(ranks_per_node, ranks - first);
@@ -138,7 +145,7 @@ private:
     double end_ = 0;
     std::mt19937_64 generator_{1};
     std::uniform_real_distribution<double> uniform_;
-    std::gamma_distribution<double> duration_;
+    std::gamma_distribution<double> duration_; ///< not used without spread
 };
 
 } // namespace

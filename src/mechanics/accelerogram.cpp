@@ -86,6 +86,9 @@ double Accelerogram::lifting_scale(const UpliftThresholds& thresholds) const
     // scale |a| > (1 + scale v) threshold. Both sides are linear between samples and the left one
     // is convex, so that the least scale is that of a sample.
     const auto scale_on_side = [&](double threshold, double side) {
+        if (std::isinf(threshold)) {
+            return threshold;
+        }
         double strongest = 0;
         for (std::size_t i = 0; i < horizontal_.size(); ++i) {
             const double upwards = upwards_.empty() ? 0 : upwards_[i];

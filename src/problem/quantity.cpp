@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace overturn {
 
@@ -71,6 +72,13 @@ double frequency_parameter_of_side(const Scene& scene, const Values& of)
 }
 
 /// J / m: the angular momentum that an impact keeps, over m omega.
+/// Infinite on a level base.
+double friction_over_incline(const Scene&, const Values& of)
+{
+    const double slope = std::abs(std::tan(of[1]));
+    return slope > 0 ? of[0] / slope : std::numeric_limits<double>::infinity();
+}
+
 double moment_kept(const Scene&, const Values& of)
 {
     const auto [k, plus, minus, alpha_plus, alpha_minus] = of;
@@ -281,9 +289,7 @@ constexpr Intermediate intermediates[] = {
      {{{"restitution", "slenderness"},
        [](auto&, auto& of) { return of[0] / largest_restitution(of[1]); }, equal},
       {{"restitution", "largest_restitution"}, ratio, two}}},
-    {"friction_over_incline",
-     {{{"friction", "incline"},
-       [](auto&, auto& of) { return of[0] / std::abs(std::tan(of[1])); }, two}}},
+    {"friction_over_incline", {{{"friction", "incline"}, friction_over_incline, two}}},
     {"gyration_over_size", {{{"radius_of_gyration", "size_plus"}, ratio, two}}},
     {"center_over_half_height", {{{"center_height", "half_height"}, ratio, two}}}};
 // clang-format on

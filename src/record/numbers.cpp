@@ -74,7 +74,8 @@ bool is_mark_of_unknown(double number)
 {
     constexpr std::array marks{-999.0, -9999.0, -99999.0, -999999.0, -12345.0, -32768.0};
     constexpr double nearly_largest_of_single_precision = 1.69e38;
-    return is_one_of(number, marks) || std::abs(number) >= nearly_largest_of_single_precision;
+    return is_one_of(number, marks) ||
+           std::isgreaterequal(std::abs(number), nearly_largest_of_single_precision);
 }
 
 double rounding_of(std::string_view number)

@@ -265,7 +265,7 @@ void PointRun::let_slip(const Numerics& numerics, const Outputs& outputs, Outcom
         outcome.slide = outcome.slide_peak = outcome.has(status::free_fall) ? unknown_value : 0;
         // A strength of exactly the friction, such as both 0.3, is scaled with roundings.
         const double sticks_up_to = at.friction * (1 + 4 * std::numeric_limits<double>::epsilon());
-        if (outcome.has(status::free_fall) || outcome.to_stick <= sticks_up_to) {
+        if (outcome.has(status::free_fall) || std::islessequal(outcome.to_stick, sticks_up_to)) {
             continue;
         }
         // A block that stays flat has no time of its own: its slide is in proportion to the square

@@ -5,6 +5,7 @@
 #include "overturn/integrate/sliding_motion.hpp"
 #include "overturn/mechanics/energy_criteria.hpp"
 
+#include <cmath>
 #include <vector>
 
 namespace overturn {
@@ -58,7 +59,7 @@ public:
         if (history_.shortened) {
             timeline_.record_last();
         }
-        if (history_.time_of_rest < infinity) {
+        if (std::isfinite(history_.time_of_rest)) {
             timeline_.follow(infinity, [&](double time) { return sample(motion, time); });
         }
         return std::move(history_);

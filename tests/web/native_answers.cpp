@@ -44,9 +44,12 @@ Json numbers_of(const std::string& question)
         Problem disturbed = job.problem;
         disturbed.scene.gravity *= 1 + 1e-13;
         const double peak = peak_at(job.problem, most_accurate.tolerance);
+        const auto change_to = [&](double other) {
+            return std::isfinite(peak) && std::isfinite(other) ? std::abs(peak - other) : HUGE_VAL;
+        };
         of_direction["peak_change"] =
-            if_finite(std::max(std::abs(peak - peak_at(job.problem, 100 * most_accurate.tolerance)),
-                               std::abs(peak - peak_at(disturbed, most_accurate.tolerance))));
+            if_finite(std::max(change_to(peak_at(job.problem, 100 * most_accurate.tolerance)),
+                               change_to(peak_at(disturbed, most_accurate.tolerance))));
     }
     return numbers;
 }

@@ -165,7 +165,8 @@ private:
         // From rest the rate grows to rate[1] h + rate[2] h^2. This is larger than what follows if
         // h <= 1; otherwise tilt and rate are at least half of it.
         const E growth = tolerance * (size_of(1) + size_of(2));
-        T length = left;
+        // The series of other lanes need not converge.
+        T length = select<T>(active, left, lesser<T>(left, 1));
         while (true) {
             const E h = estimate_of(length);
             E term = size_of(order);

@@ -23,7 +23,7 @@ ContactForce<T> force_on_arc(const ContactSide<T>& side, const T& q, const SineA
 }
 
 /// The sines of y at which a force normal to the base may be smallest on an arc, |y| < pi/2, if the
-/// base is not level. NaN: there is no such place.
+/// base is not level. Above 1: there is no such place.
 ///
 /// With the angle psi of the base, z = y + psi/2 and a = 2 - q, the derivative of the normal force
 /// is lambda sin z cos z (F(z) - 6),
@@ -52,8 +52,7 @@ std::array<T, 2> places_of_least_normal(const ContactSide<T>& side, const T& q, 
     const auto minimum_between = [&](const T& first, const T& last) -> T {
         const mask_t<T> within = first < last && slope_at(first) < 0 && slope_at(last) > 0;
         constexpr int most_passes = 16;
-        return select<T>(within, root_between<T>(first, last, within, slope_at, most_passes),
-                         T(std::numeric_limits<scalar_t<T>>::quiet_NaN()));
+        return select<T>(within, root_between<T>(first, last, within, slope_at, most_passes), T(2));
     };
     return {minimum_between(low, lesser<T>(high, lesser<T>(level, extreme))),
             minimum_between(greater<T>(low, greater<T>(level, extreme)), high)};
@@ -73,26 +72,29 @@ ContactDemand<T> demand_on_arc(const ContactSide<T>& side, const T& q, const Sin
     const mask_t<T> all = q == q;
     demand.include(demand_of(force_on_arc(side, q, high)), all);
     const auto see = [&](const T& sine, const mask_t<T>& lanes) {
-        const mask_t<T> within = lanes && low.sine < sine && sine < high.sine; // NaN is nowhere
+        const mask_t<T> within = lanes && low.sine < sine && sine < high.sine;
         if (any<T>(within)) {
             const T cosine = sqrt(greater<T>(1 - sine * sine, 0));
             demand.include(demand_of(force_on_arc<T>(side, q, {sine, cosine})), within);
         }
     };
-    const auto include_both = [&](const T& cosine) {
-        const T sine = sqrt(1 - cosine * cosine);
-        see(sine, all);
-        see(-sine, all);
+    const auto include_both = [&](const T& cosine, const mask_t<T>& lanes) {
+        const T square = 1 - cosine * cosine;
+        const mask_t<T> exists = lanes && square >= 0;
+        const T sine = sqrt(greater<T>(square, 0));
+        see(sine, exists);
+        see(-sine, exists);
     };
     see(T(0), all);
     const T a = 2 - q;
     const T& inertia = side.inertia;
-    include_both(a * T(scalar_t<T>(1) / 6));
+    include_both(a * T(scalar_t<T>(1) / 6), all);
     const T square = 6 + 3 * inertia;
     const T half = 0.5 * a * (1 + 5 * inertia);
-    const T root = sqrt(half * half + square * (3 * (1 - inertia) - inertia * a * a));
-    include_both((half + root) / square);
-    include_both((half - root) / square);
+    const T discriminant = half * half + square * (3 * (1 - inertia) - inertia * a * a);
+    const T root = sqrt(greater<T>(discriminant, 0));
+    include_both((half + root) / square, discriminant >= 0);
+    include_both((half - root) / square, discriminant >= 0);
     const mask_t<T> sloped = side.sine != 0;
     if (any<T>(sloped)) {
         for (const T& sine : places_of_least_normal(side, q, low.sine, high.sine)) {

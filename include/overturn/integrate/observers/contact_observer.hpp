@@ -296,7 +296,8 @@ private:
         const T twist = 3 * (at_low + at_high) - (rise + rise);
         const T square = fma(bend, bend, -(twist * at_low));
         const T divisor = sqrt(greater<T>(square, 0)) - bend;
-        return fma(width, at_low / select<T>(divisor > 0, divisor, at_low + at_low), low.place);
+        const T share = at_low / select<T>(divisor > 0, divisor, T(1));
+        return fma(width, select<T>(divisor > 0, share, T(0.5)), low.place);
     }
 
     /// Includes the demand at the maximum of a function within a part, if the function increases at
@@ -312,6 +313,7 @@ private:
         FunctionSample<T> there = low;
         FunctionSample<T> before = low;
         Mask open = lanes && low.slope > 0 && high.slope < 0;
+        const T enough = T(S(1e-10)) / select<T>(open, step.duration, T(1));
         constexpr int most_passes = 20;
         for (int pass = 0; pass < most_passes && any<T>(open); ++pass) {
             T place;
@@ -332,7 +334,6 @@ private:
             // The rest of the rise, that of a parabola, is slope^2 / (2 curvature), with the
             // smaller of the mean curvatures on both sides.
             const T square_slope = there.slope * there.slope;
-            const T enough = T(S(1e-10)) / step.duration;
             const Mask far =
                 square_slope * (place - low.place) > enough * (low.slope - there.slope) ||
                 square_slope * (high.place - place) > enough * (there.slope - high.slope);
