@@ -2,13 +2,19 @@
 
 #include <algorithm>
 #include <cassert>
-#include <numeric>
+#include <limits>
 
 namespace overturn {
 
 std::int64_t count_points(const Shape& shape)
 {
-    return std::accumulate(shape.begin(), shape.end(), std::int64_t(1), std::multiplies());
+    std::int64_t points = 1;
+    for (const std::int64_t count : shape) {
+        if (__builtin_mul_overflow(points, count, &points)) {
+            return std::numeric_limits<std::int64_t>::max(); // a job that is refused
+        }
+    }
+    return points;
 }
 
 Tiling::Tiling(Shape shape, const Shape& tile) : shape_(std::move(shape))

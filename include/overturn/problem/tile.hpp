@@ -11,7 +11,7 @@ namespace overturn {
 /// Number of points, or an index, along each dimension, slowest first.
 using Shape = std::vector<std::int64_t>;
 
-/// The number of points of a shape.
+/// The number of points of a shape, or the largest integer if there are more.
 std::int64_t count_points(const Shape& shape);
 
 /// The points of one tile: the index range [begin, begin + count) of each dimension.
