@@ -1,4 +1,4 @@
-"""Results of random points, as overturn.open returns them, for tests of fragility curves."""
+"""Results as overturn.open returns them, made of given regions, for tests of fragility curves."""
 
 import numpy as np
 import xarray
