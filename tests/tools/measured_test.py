@@ -38,6 +38,10 @@ class Pages(unittest.TestCase):
         self.assertEqual(reports.results_of(output), "100% tests passed, 0 tests failed out of 2\n\n  800 runs\n"
                          "it finished\n  crashes within HDF5: 3\ntools/check: everything passed")
 
+    def test_output_of_a_command_may_have_any_bytes(self):
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(everything.output_of(r"printf '8 \377\n9'", pathlib.Path(folder)), (0, "8 \ufffd\n9"))
+
     def measured(self, page, commit, report, only="tools/bench run", machine="MPI          4"):
         """Measures with a command that prints a report."""
         saved = everything.commit_and_machine, everything.output_of

@@ -81,7 +81,8 @@ def output_of(command, folder):
     words = [str(SOURCE / word) if "/" in word and (SOURCE / word).exists() else word for word in words]
     start = [sys.executable] if words[0].endswith("/bench") else []
     with (folder / f"{name}.txt").open("w") as file, subprocess.Popen(
-            start + words, cwd=place, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as process:
+            start + words, cwd=place, text=True, errors="replace", stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT) as process:
         for line in process.stdout:
             print(line, end="", flush=True)
             file.write(line)
