@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <future>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -42,9 +43,9 @@ void in_threads(std::size_t count, int threads, const std::function<void(std::si
         }
     };
     {
-        std::vector<std::jthread> others;
+        std::vector<std::future<void>> others; // not std::jthread, which libc++ 19 does not have
         for (int i = 1; i < threads; ++i) {
-            others.emplace_back(take, false);
+            others.push_back(std::async(std::launch::async, take, false));
         }
         take(true);
     }
