@@ -4,10 +4,19 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 
 namespace overturn {
 namespace {
+
+TEST(CountPoints, OfMoreThan64BitsIsTheLargestNumber)
+{
+    const std::int64_t largest = std::numeric_limits<std::int64_t>::max();
+    EXPECT_EQ(count_points({largest / 3, 3}), largest / 3 * 3);
+    EXPECT_EQ(count_points({largest / 3 + 1, 3}), largest);
+    EXPECT_EQ(count_points({largest, 2, 2}), largest);
+}
 
 TEST(Tiling, CoversEveryPointOnceInAnyNumberOfDimensions)
 {
