@@ -14,12 +14,13 @@ from building import SOURCE, fail, run_or_fail
 EXPLANATION = """\
 Runs every benchmark of README.md and docs, as the documentation states it, one after another: about an hour, and the
 first time a few minutes more to build. With --checks, also the checks whose results the documentation states: about
-six hours more, as root, on Debian. Each writes its output, its JSON and its picture to a folder. Their reports are
+three hours more, as root, on Debian. Each writes its output, its JSON and its picture to a folder. Their reports are
 the sections of a page, beside the commit and the machine of each.
 
 A second call at the same commit replaces or adds sections, so that all can be measured in several calls; otherwise a
-new page begins. Commits that change the documentation alone do not count. Records that are
-not part of the sources are found in $OVERTURN_RECORDS. Do not run other programs meanwhile."""
+new page begins. Commits that change the documentation alone do not count. Records that are not part of the sources are
+found in $OVERTURN_RECORDS; $OPENSEES_PYTHON is a Python interpreter that has OpenSeesPy. Do not run other programs
+meanwhile."""
 
 DOCUMENTATION = (":!docs", ":!*.md", ":!*.png")
 BENCHMARKS = tuple(f"tools/bench {command}" for command in (
@@ -36,7 +37,8 @@ CHECKS = (
                                                "fuzz 60", "slurm", "sanitize", "web")),
     "tools/bench web",  # of the module that tools/check web builds
     *(f"tools/examples/shake_table.py fit $OVERTURN_RECORDS/shake_table/calibration_half.h5 {options}-o model.json"
-      for options in ("", "--friction 0.4 0.6 0.8 fit ")))
+      for options in ("", "--friction 0.4 0.6 0.8 fit ")),
+    "$OPENSEES_PYTHON tools/examples/compare_opensees.py")
 
 
 def add_arguments(parser):
@@ -101,8 +103,8 @@ def run(options):
     failed = []
     for command in options.only or order[:None if options.checks else len(BENCHMARKS)]:
         print(f"\n{command}", flush=True)
-        if "$" in os.path.expandvars(command):
-            print("skipped: $OVERTURN_RECORDS is not set", flush=True)
+        if missing := re.search(r"\$\w+", os.path.expandvars(command)):
+            print(f"skipped: {missing[0]} is not set", flush=True)
             continue
         began = time.monotonic()
         code, output = output_of(command, folder)

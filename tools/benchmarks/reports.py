@@ -14,6 +14,7 @@ PROGRESS = re.compile("|".join((
     r"\[ *\d+ s\] (?!  |skipped|tools/check:)", r"\[\d+/\d+\] ", r"-- ", r"\s*round \d+ of \d+$", r"\d+ of \d+ kills: ",
     r"\.+$", r"written: ", r"\S+: written", r"Logs and inputs are in ", r"installing missing dependencies",
     r"All packages are installed", r"settling verdicts and computing about", r"shake_table: (verdicts of|rock)",
+    r"Process 0 Terminating",  # of OpenSees
     # of Google Benchmark, whose units vary, GoogleTest, ctest and unittest
     r"Benchmark +Time", r"\S+_(?:mean|median|stddev|cv) ",
     r"\d{4}-\d\d-\d\dT", r"Running /", r"Run on \(", r"CPU Caches:", r"  L\d ", r"Load Average:", r"\*\*\*WARNING",

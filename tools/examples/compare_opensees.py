@@ -2,12 +2,10 @@
 """Compares overturn with OpenSees: one block at 20 scales of a record and at 20 amplitudes of a one-sine pulse, with
 several settings of OpenSees."""
 
-import datetime
 import importlib.metadata
 import json
 import pathlib
 import platform
-import subprocess
 import sys
 import time
 import warnings
@@ -21,6 +19,7 @@ try:
     import overturn
     from opensees_block import FALLEN, GRAVITY, HEIGHT, WIDTH, Setting, analyse
     from overturn.output_file import write_picture, write_text
+    from overturn.regions import REGIONS, STANDS, TOPPLES
     from overturn.tool import parser_of
 except ImportError as error:
     run_elsewhere(error)
@@ -47,7 +46,7 @@ GROUNDS = {"record": ("scale of the record", np.linspace(0.95, 1.33, 20)),
            "pulse": ("peak acceleration of the pulse [g]", np.linspace(0.30, 0.94, 20))}
 WEAK_PULSES = np.arange(0.34, 0.2, -0.01)  # before a free decay [g]; the first with a peak below 0.9 alpha is used
 LEAST_PEAK = 0.1  # of a half-cycle of the decay, over alpha: lower ones depend on the flexible contact [1]
-COLOURS = ("#5e8c61", "#c9741a", "#b8b8bf")  # safe, overturns, not converged
+VERDICTS = {"safe": REGIONS[STANDS][2], "overturns": REGIONS[TOPPLES][2], "not converged": "#b8b8bf"}  # and colours
 
 SETTINGS = [
     Setting("reference: step 0.00005 s, 10^10 N/m", 5e-5, 1e10),
@@ -154,13 +153,15 @@ def draw(rows, record, path):
     import matplotlib
     matplotlib.use("Agg")
     from matplotlib import colors, pyplot
+    from matplotlib.patches import Patch
+    shades = colors.ListedColormap(list(VERDICTS.values()))
     figure, axes = pyplot.subplots(2, 2, figsize=(11, 8), layout="constrained", sharex="col", sharey="row")
     for (above, below), (name, (label, strengths)) in zip(axes.T, GROUNDS.items()):
         half = (strengths[1] - strengths[0]) / 2
         fine = np.linspace(strengths[0] - half, strengths[-1] + half, 2001)
         curve, theirs = by_overturn(record, name, rows[0]["restitution"], fine), rows[0][name]["opensees"]
         falls = np.array(curve["verdict"]) == 1
-        above.fill_between(fine, 0, 1, where=falls, step="mid", color=COLOURS[1], alpha=0.35, linewidth=0,
+        above.fill_between(fine, 0, 1, where=falls, step="mid", color=VERDICTS["overturns"], alpha=0.35, linewidth=0,
                            transform=above.get_xaxis_transform(), label="overturns, overturn")
         above.plot(fine, np.where(falls, np.nan, curve["peak"]), color="0.3", linewidth=1, label="safe, overturn")
         for verdict, marker, word in ((0, "o", "safe"), (1, "^", "overturns")):
@@ -168,15 +169,18 @@ def draw(rows, record, path):
             above.plot(strengths[chosen], np.minimum(theirs["peak"], 1.7)[chosen], marker, color="#0b3c5d",
                        markersize=5, label=f"{word}, OpenSees (reference)")
         above.set_ylim(0, 1.8)
-        below.imshow([row[name]["opensees"]["verdict"] for row in rows], cmap=colors.ListedColormap(COLOURS), vmin=0,
-                     vmax=2, aspect="auto", extent=(fine[0], fine[-1], len(rows) - 0.5, -0.5))
+        below.imshow([row[name]["opensees"]["verdict"] for row in rows], cmap=shades, vmin=0, vmax=2,
+                     aspect="auto", extent=(fine[0], fine[-1], len(rows) - 0.5, -0.5))
         below.plot(*np.transpose([(x, i) for i, row in enumerate(rows) for x, one, other in zip(
             strengths, *(row[name][program]["verdict"] for program in ("opensees", "overturn")))
-            if one not in (2, other)]), "kx", markersize=5)
+            if one not in (2, other)]), "kx", markersize=5,
+            label="below: differs from overturn")
         below.set(xlim=(fine[0], fine[-1]), xlabel=label, yticks=range(len(rows)),
                   yticklabels=[row["setting"] for row in rows])
     axes[0, 0].set_ylabel("largest |θ| / α")
-    axes[0, 1].legend(loc="center")
+    axes[0, 1].legend(handles=[*above.get_legend_handles_labels()[0], *(
+        Patch(facecolor=colour, edgecolor="0.5", label=f"below: {verdict}, OpenSees")
+        for verdict, colour in VERDICTS.items()), below.lines[0]], loc="lower right", framealpha=0.95)
     write_picture(figure, path, dpi=130)
 
 
@@ -197,9 +201,7 @@ def main():
     write_text(arguments.output + ".json", json.dumps(rows), "a comparison",
                lambda beginning: beginning.startswith(b'[{"setting":'))
     summary(rows[0], record)
-    processor = subprocess.run("lscpu | sed -n 's/Model name: *//p'", shell=True, capture_output=True, text=True).stdout
-    print(processor.strip(), datetime.date.today(), "Python", platform.python_version(), "OpenSeesPy",
-          importlib.metadata.version("openseespy"))
+    print("Python", platform.python_version(), "OpenSeesPy", importlib.metadata.version("openseespy"))
     draw(rows, record, arguments.output + ".png")
 
 
