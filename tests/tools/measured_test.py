@@ -120,7 +120,13 @@ class Comparison(unittest.TestCase):
         self.assertEqual(self.wrong(RUN.replace("8 wrong", "9 wrong")), 1)
         self.assertEqual(self.wrong(RUN.replace("wrong", "right")), 1)
         self.assertEqual(self.wrong(RUN + "\none more line"), 1)
-        self.assertEqual(self.wrong(RUN.replace("8 wrong", "9 wrong"), command="tools/check faults 1000"), 0)
+
+    def test_what_depends_on_the_time_of_a_kill_may_differ(self):
+        faults = {"command": "tools/check faults 1000"}
+        self.assertEqual(self.wrong(RUN.replace("8 wrong", "9 wrong"), **faults), 0)
+        printed, wrong = compare.compared("tools/check faults 1000", RUN, "    2 rare events\n" + RUN)
+        self.assertEqual((printed[0], wrong), ("only new:     2 rare events", []))
+        self.assertEqual(self.wrong("\n".join(reversed(RUN.splitlines())), **faults), 0)
 
     def test_times_are_printed_and_ratios_are_marked(self):
         slower = RUN.replace("0.0438", "0.0876").replace("12196", "15000")

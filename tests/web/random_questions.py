@@ -228,7 +228,7 @@ def main():
         questions = [question(rng, [each.name for each in records]) for _ in range(count)]
         comparison = Comparison()
         node = ["node", FOLDER / "node_answers.mjs", module, *records]
-        modules, _ = answers_of(node, questions)
+        modules, _ = answers_of(node, questions, stderr=subprocess.PIPE)
         natives, _ = answers_of([native, *records], questions)
         for asked, one, other in zip(questions, modules, natives, strict=True):
             comparison.add(asked, one, other)

@@ -52,7 +52,7 @@ def compared(overturn, job, options):
                      "direct": direct.get(side, by_area), "direct_is_measured": side in direct})
         filled, every = rows[-1]["filled"], rows[-1]["direct"]
         print(f"{job.stem:12}{side:>7}{filled['kernel']:>10.3f} s{filled['writing']:>8.3f} s"
-              f"{filled['run']:>9.3f} s{every['kernel']:>11.3f} s{every['run']:>10.3f} s"
+              f"{filled['run']:>9.3f} s{every['kernel']:>13.3f} s{every['run']:>10.3f} s"
               f"{every['kernel'] / filled['kernel']:>9.1f}{every['run'] / filled['run']:>7.1f}"
               f"{'' if side in direct else '  (direct: by area)'}", flush=True)
     return rows
@@ -89,7 +89,7 @@ def run(options):
     import matplotlib  # before the runs: if it is missing, the command starts again elsewhere
     matplotlib.use("Agg")
     overturn = program(options)
-    print(f"{'plane':12}{'side':>7}{'kernel':>12}{'writing':>10}{'run':>11}{'direct kernel':>13}"
+    print(f"{'plane':12}{'side':>7}{'kernel':>12}{'writing':>10}{'run':>11}{'direct kernel':>15}"
           f"{'run':>12}{'ratio':>9}{'run':>7}")
     rows = []
     for job in options.jobs:
