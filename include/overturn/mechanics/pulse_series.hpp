@@ -6,6 +6,7 @@
 #include "overturn/number/unrolled.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace overturn {
 
