@@ -243,10 +243,12 @@ PointRun::Slip PointRun::slip_of(int point, double frequency, const Numerics& nu
         const auto margin_of = [&]<class T>(const SlidingEnd<T>& end) {
             return outcome_of(end, block_in<T>(this->point(point).block), {}).margin;
         };
-        const double difference = std::abs(margin_of(most_exact) - margin_of(slip.end));
+        const double margin = margin_of(slip.end);
+        const double difference = std::abs(margin_of(most_exact) - margin);
+        const double rounding = 0x1p-50 * std::max(1.0, std::abs(margin)); // of both margins
         slip.is_settled = most_exact.region == slip.end.region;
         slip.error =
-            slip.is_settled && std::isfinite(difference) ? 2 * difference + 0x1p-50 : infinity;
+            slip.is_settled && std::isfinite(difference) ? 2 * difference + rounding : infinity;
     }
     if (numerics.resolve) {
         slip.is_settled =

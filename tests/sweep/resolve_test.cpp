@@ -35,6 +35,27 @@ Found compute(const Numerics& numerics, const PulsePoint<double>& point)
 constexpr Numerics resolved_rk45{Method::rk45, 1e-4, true};
 constexpr Numerics resolved_taylor{Method::taylor, 1e-4, true};
 
+TEST(ErrorOfABlockThatSlips, IsNotBelowTheRoundingOfItsMargin)
+{
+    const Problem problem{
+        .grid = grid_of({}, {number("slenderness", 0.3217506), number("restitution_of_maximum", 1),
+                             number("friction", 0.4), axis("amplitude", AxisRange{1.2, 8, 10}),
+                             axis("frequency", AxisRange{0.5, 8, 10})}),
+        .numerics = {Method::taylor, 1e-14},
+        .fields = {Field::margin, Field::error}};
+    const TileFields fields = compute_tile(problem, tiling_of(problem)[0], widest_kernel());
+    const auto& margin = std::get<std::vector<double>>(fields.values[0]);
+    const auto& error = std::get<std::vector<double>>(fields.values[1]);
+    int large = 0;
+    for (std::size_t i = 0; i < margin.size(); ++i) {
+        if (!std::isnan(margin[i])) {
+            EXPECT_GE(error[i], 0x1p-52 * std::abs(margin[i])) << margin[i];
+            large += std::abs(margin[i]) > 8; // whose rounding is above 0x1p-50
+        }
+    }
+    EXPECT_GT(large, 5);
+}
+
 Digits50 true_margin(const PulsePoint<double>& point)
 {
     return margin_of<Theory::nonlinear>(
