@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <poll.h>
 #include <span>
 #include <string_view>
 #include <thread>
@@ -166,8 +167,6 @@ void MpiSession::abort(int exit_code, const std::string& message) const
 {
     std::fprintf(stderr, "rank %d: %s\n", rank_, message.c_str());
     std::fflush(nullptr);
-    // The launcher of MPICH may drop what it has not read when the ranks end.
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
     end_all_ranks(exit_code);
 }
 
@@ -188,6 +187,9 @@ void end_all_ranks(int exit_code)
         MPI_Comm_size(MPI_COMM_WORLD, &size);
     }
     if (size > 1) {
+        // The launcher of MPICH may drop messages that it has not read when the ranks end.
+        constexpr int time_to_read = 200; // [ms]
+        poll(nullptr, 0, time_to_read);   // waits; allowed in signal handlers
         MPI_Abort(MPI_COMM_WORLD, exit_code);
     }
     _exit(exit_code);
