@@ -5,6 +5,7 @@ import json
 import math
 import re
 import signal
+import time
 import unittest
 
 import h5py
@@ -157,10 +158,15 @@ class APart(ScratchWithParts):
         for end in (signal.SIGUSR1, signal.SIGKILL):
             with self.start(*second, variables=self.with_slow(name, milliseconds=16)) as process:
                 self.assertIn("part 2 of 2: ", process.stdout.readline())
+                process.send_signal(signal.SIGSTOP)  # while its tiles are counted
                 before = self.tiles_done(name)
                 while self.tiles_done(name) < before + 2:
+                    process.send_signal(signal.SIGCONT)
+                    time.sleep(0.05)
                     self.assertIsNone(process.poll(), "the run ended too early")
+                    process.send_signal(signal.SIGSTOP)
                 process.send_signal(end)
+                process.send_signal(signal.SIGCONT)
                 output, _ = process.communicate(timeout=PATIENCE)
             self.go_on()
             self.assertEqual(process.returncode, 85 if end == signal.SIGUSR1 else -end, output)
