@@ -245,7 +245,7 @@ PointRun::Slip PointRun::slip_of(int point, double frequency, const Numerics& nu
         };
         const double margin = margin_of(slip.end);
         const double difference = std::abs(margin_of(most_exact) - margin);
-        const double rounding = 0x1p-50 * std::max(1.0, std::abs(margin)); // of both margins
+        const double rounding = 0x1p-50 * std::fmax(1.0, std::abs(margin)); // 2^-50 if NaN
         slip.is_settled = most_exact.region == slip.end.region;
         slip.error =
             slip.is_settled && std::isfinite(difference) ? 2 * difference + rounding : infinity;
